@@ -1,0 +1,4 @@
+//! Radiosity as a Fredholm equation of the second kind: B = E + ρ ∫ K B.
+
+pub mod polygon;
+pub mod scene;

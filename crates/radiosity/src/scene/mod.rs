@@ -1,0 +1,39 @@
+//! Room 1: a scene is surfaces with materials, in metres, and perhaps a camera.
+
+mod camera;
+
+pub use camera::Camera;
+
+use crate::polygon::Polygon;
+use fredholm::value::Value;
+
+/// Surfaces in the order of the file, and where it is looked at from.
+#[derive(Clone, Debug)]
+pub struct Scene<V> {
+    /// What the scene is called: the file's name without its folder, or the name it gives itself.
+    pub name: String,
+    /// The surfaces, in the order of the file.
+    pub surfaces: Vec<Surface<V>>,
+    /// Where the file says that the scene is looked at from.
+    pub camera: Option<Camera>,
+}
+
+/// Polygons of one material that the file calls by one name.
+#[derive(Clone, Debug)]
+pub struct Surface<V> {
+    /// The name, unique in the scene.
+    pub name: String,
+    /// Diffuse hemispherical reflectance ρ ∈ [0, 1), by channel.
+    pub reflectance: V,
+    /// Exitance E = π L emitted from the front, in W/m², by channel.
+    pub emission: V,
+    /// The polygons, in the order of the file.
+    pub polygons: Vec<Polygon>,
+}
+
+impl<V: Value> Surface<V> {
+    /// The area of all polygons, in m².
+    pub fn area(&self) -> f64 {
+        self.polygons.iter().map(Polygon::area).sum()
+    }
+}
