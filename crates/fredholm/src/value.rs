@@ -87,19 +87,19 @@ impl<const N: usize> Value for Spectrum<N> {
 }
 
 macro_rules! by_channel {
-    ($($operator:ident $method:ident $symbol:tt),*) => {$(
+    ($($operator:ident $method:ident $assign:tt),*) => {$(
         impl<const N: usize> $operator for Spectrum<N> {
             type Output = Self;
             fn $method(mut self, other: Self) -> Self {
-                for k in 0..N {
-                    self.0[k] = self.0[k] $symbol other.0[k];
+                for (mine, its) in self.0.iter_mut().zip(other.0) {
+                    *mine $assign its;
                 }
                 self
             }
         }
     )*};
 }
-by_channel!(Add add +, Sub sub -, Mul mul *, Div div /);
+by_channel!(Add add +=, Sub sub -=, Mul mul *=, Div div /=);
 
 impl<const N: usize> Mul<f64> for Spectrum<N> {
     type Output = Self;

@@ -1,4 +1,5 @@
 //! Radiosity as a Fredholm equation of the second kind: B = E + ρ ∫ K B.
 
+pub mod patches;
 pub mod polygon;
 pub mod scene;

@@ -1,0 +1,295 @@
+//! Room 2: the mesh of the domain. Each input polygon is cut into patches P_i on which u is constant (P0).
+
+use crate::polygon::Polygon;
+use crate::scene::Scene;
+use fredholm::value::Value;
+use glam::{DVec2, DVec3};
+
+/// The patches of a scene with their reflectance ρ and emission E, in the order of surfaces and polygons.
+#[derive(Clone, Debug)]
+pub struct Patches<V> {
+    /// The patches: planar convex triangles and quadrilaterals.
+    pub polygons: Vec<Polygon>,
+    /// The area of each patch, in m².
+    pub areas: Vec<f64>,
+    /// The reflectance ρ of each patch.
+    pub reflectance: Vec<V>,
+    /// The exitance E of each patch, in W/m².
+    pub emission: Vec<V>,
+    /// The index of each patch's surface in the scene.
+    pub surface: Vec<u32>,
+    grids: Vec<Grid>,
+}
+
+/// Patch size that cannot be used.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum PatchError {
+    /// Not a positive finite length.
+    #[error("patch size {0} m: give a positive finite length")]
+    Size(f64),
+    /// More patches than can be numbered or stored.
+    #[error("patch size {size} m would make {count:.3e} patches, more than {MAX_PATCHES}: give a larger one")]
+    TooMany {
+        /// The patch size asked for, in m.
+        size: f64,
+        /// How many patches it makes.
+        count: f64,
+    },
+}
+
+/// 16 million patches take some 4 GB before any form factor is computed.
+pub const MAX_PATCHES: usize = 1 << 24;
+
+impl<V: Value> Patches<V> {
+    /// Cuts every polygon of the scene into patches whose edges are at most `size` metres long.
+    pub fn new(scene: &Scene<V>, size: f64) -> Result<Self, PatchError> {
+        if !(size > 0.0 && size.is_finite()) {
+            return Err(PatchError::Size(size));
+        }
+        let input = || scene.surfaces.iter().flat_map(|s| &s.polygons);
+        let count: f64 = input().map(|p| Divisions::of(p, size).count()).sum();
+        if count > MAX_PATCHES as f64 {
+            return Err(PatchError::TooMany { size, count });
+        }
+        let mut patches = Self {
+            polygons: Vec::with_capacity(count as usize),
+            areas: Vec::new(),
+            reflectance: Vec::new(),
+            emission: Vec::new(),
+            surface: Vec::new(),
+            grids: Vec::with_capacity(input().count()),
+        };
+        for (index, surface) in scene.surfaces.iter().enumerate() {
+            for polygon in &surface.polygons {
+                patches.cut(polygon, size);
+            }
+            let n = patches.polygons.len();
+            patches.reflectance.resize(n, surface.reflectance);
+            patches.emission.resize(n, surface.emission);
+            patches.surface.resize(n, index as u32);
+        }
+        patches.areas = patches.polygons.iter().map(Polygon::area).collect();
+        Ok(patches)
+    }
+
+    fn cut(&mut self, polygon: &Polygon, size: f64) {
+        let grid = Grid {
+            first: self.polygons.len(),
+            divisions: Divisions::of(polygon, size),
+            whole: polygon.clone(),
+        };
+        self.polygons.extend(grid.patches());
+        self.grids.push(grid);
+    }
+
+    /// How many patches there are.
+    pub fn len(&self) -> usize {
+        self.polygons.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.polygons.is_empty()
+    }
+
+    /// The patch of input polygon number `polygon` (counted over all surfaces) nearest to a point of it.
+    pub fn patch_at(&self, polygon: u32, point: DVec3) -> usize {
+        self.grids[polygon as usize].patch_at(point)
+    }
+
+    /// Which patches lie on input polygon number `polygon`.
+    pub fn on_polygon(&self, polygon: u32) -> std::ops::Range<usize> {
+        let grid = &self.grids[polygon as usize];
+        grid.first..grid.first + grid.divisions.count() as usize
+    }
+}
+
+/// The patch size, in metres, that cuts the scene into about `count` square patches.
+pub fn size_for_count<V: Value>(scene: &Scene<V>, count: usize) -> f64 {
+    let area: f64 = scene.surfaces.iter().map(|s| s.area()).sum();
+    (area / count.max(1) as f64).sqrt()
+}
+
+/// How an input polygon is cut: a quadrilateral in s × t, a triangle into k² similar ones.
+#[derive(Clone, Copy, Debug)]
+enum Divisions {
+    Quadrilateral(usize, usize),
+    Triangle(usize),
+}
+
+impl Divisions {
+    fn of(polygon: &Polygon, size: f64) -> Self {
+        // An edge a rounding error longer than a whole number of sizes is not worth another row.
+        let pieces = |length: f64| ((length / size - 1e-9).ceil()).max(1.0) as usize;
+        match *polygon.vertices() {
+            [a, b, c, d] => Self::Quadrilateral(
+                pieces(a.distance(b).max(c.distance(d))),
+                pieces(b.distance(c).max(d.distance(a))),
+            ),
+            _ => Self::Triangle(pieces(polygon.diameter())),
+        }
+    }
+
+    fn count(self) -> f64 {
+        match self {
+            Self::Quadrilateral(s, t) => s as f64 * t as f64,
+            Self::Triangle(k) => (k as f64).powi(2),
+        }
+    }
+}
+
+/// One input polygon and its patches, numbered from `first` row by row.
+#[derive(Clone, Debug)]
+struct Grid {
+    first: usize,
+    divisions: Divisions,
+    whole: Polygon,
+}
+
+impl Grid {
+    fn patches(&self) -> Vec<Polygon> {
+        match self.divisions {
+            Divisions::Quadrilateral(ns, nt) => {
+                let at = |i: usize, j: usize| self.whole.point(i as f64 / ns as f64, j as f64 / nt as f64);
+                (0..nt)
+                    .flat_map(|j| (0..ns).map(move |i| (i, j)))
+                    .map(|(i, j)| {
+                        Polygon::quadrilateral(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1))
+                    })
+                    .collect()
+            }
+            Divisions::Triangle(k) => {
+                let v = self.whole.vertices();
+                let at = |i: usize, j: usize| {
+                    v[0] + (v[1] - v[0]) * (i as f64 / k as f64) + (v[2] - v[0]) * (j as f64 / k as f64)
+                };
+                let mut patches = Vec::with_capacity(k * k);
+                for j in 0..k {
+                    for i in 0..k - j {
+                        patches.push(Polygon::triangle(at(i, j), at(i + 1, j), at(i, j + 1)));
+                        if i + j + 1 < k {
+                            patches.push(Polygon::triangle(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)));
+                        }
+                    }
+                }
+                patches
+            }
+        }
+    }
+
+    fn patch_at(&self, point: DVec3) -> usize {
+        match self.divisions {
+            Divisions::Quadrilateral(ns, nt) => {
+                let st = inverse_bilinear(&self.whole, point);
+                self.first + cell(st.y, nt) * ns + cell(st.x, ns)
+            }
+            Divisions::Triangle(k) => {
+                let st = barycentric(&self.whole, point);
+                let j = cell(st.y, k);
+                let i = cell(st.x, k).min(k - 1 - j);
+                let upper = st.x * k as f64 - i as f64 + st.y * k as f64 - j as f64 > 1.0 && i + j + 1 < k;
+                // Row j' has 2(k − j') − 1 triangles; the rows before j have j(2k − j).
+                self.first + j * (2 * k - j) + 2 * i + usize::from(upper)
+            }
+        }
+    }
+}
+
+/// Which of `n` equal cells of [0,1] holds x; the nearest for an x outside.
+fn cell(x: f64, n: usize) -> usize {
+    ((x * n as f64).max(0.0) as usize).min(n - 1)
+}
+
+/// Two orthonormal directions in the plane of a polygon.
+fn plane_axes(polygon: &Polygon) -> (DVec3, DVec3) {
+    let s = (polygon.vertices()[1] - polygon.vertices()[0]).normalize();
+    (s, polygon.normal().cross(s))
+}
+
+/// (s, t) with point = a + s (b − a) + t (c − a).
+fn barycentric(triangle: &Polygon, point: DVec3) -> DVec2 {
+    let v = triangle.vertices();
+    let doubled = 2.0 * triangle.area();
+    let share = |p: DVec3, q: DVec3| p.cross(q).dot(triangle.normal()) / doubled;
+    DVec2::new(share(point - v[0], v[2] - v[0]), share(v[1] - v[0], point - v[0]))
+}
+
+/// (s, t) with point = bilinear(s, t) on a planar quadrilateral, by Newton's method in its plane: the map is
+/// affine up to the twist a − b + c − d, so few steps reach rounding on any convex quadrilateral.
+fn inverse_bilinear(quadrilateral: &Polygon, point: DVec3) -> DVec2 {
+    let &[a, b, c, d] = quadrilateral.vertices() else { return barycentric(quadrilateral, point) };
+    let (x, y) = plane_axes(quadrilateral);
+    let flat = |p: DVec3| DVec2::new((p - a).dot(x), (p - a).dot(y));
+    let (p, along, across, twist) = (flat(point), flat(b), flat(d), flat(c) - flat(b) - flat(d));
+    let mut st = DVec2::splat(0.5);
+    for _ in 0..6 {
+        let residual = p - (along * st.x + across * st.y + twist * (st.x * st.y));
+        let (ds, dt) = (along + twist * st.y, across + twist * st.x);
+        let determinant = ds.perp_dot(dt);
+        st += DVec2::new(residual.perp_dot(dt), ds.perp_dot(residual)) / determinant;
+    }
+    st
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Surface;
+
+    fn scene(polygons: Vec<Polygon>) -> Scene<f64> {
+        let surface = Surface { name: "s".into(), reflectance: 0.5, emission: 1.0, polygons };
+        Scene { name: "test".into(), surfaces: vec![surface], camera: None }
+    }
+
+    fn odd_shapes() -> Vec<Polygon> {
+        let o = DVec3::new(1.0, 2.0, 3.0);
+        let p = |x: f64, y: f64| o + x * DVec3::X + y * DVec3::new(0.0, 0.6, 0.8);
+        vec![
+            Polygon::quadrilateral(p(0.0, 0.0), p(4.0, 0.5), p(2.5, 3.0), p(-0.5, 2.0)),
+            Polygon::triangle(p(5.0, 0.0), p(8.0, 1.0), p(6.0, 4.0)),
+        ]
+    }
+
+    #[test]
+    fn patches_cover_their_polygon_and_face_its_way() {
+        let scene = scene(odd_shapes());
+        let patches = Patches::new(&scene, 0.3).unwrap();
+        assert!((patches.areas.iter().sum::<f64>() - scene.surfaces[0].area()).abs() < 1e-12);
+        for (k, whole) in odd_shapes().iter().enumerate() {
+            for patch in &patches.polygons[patches.on_polygon(k as u32)] {
+                assert!(patch.normal().distance(whole.normal()) < 1e-12);
+                let v = patch.vertices();
+                assert!((0..v.len()).all(|i| v[i].distance(v[(i + 1) % v.len()]) <= 0.3 + 1e-12));
+            }
+        }
+    }
+
+    #[test]
+    fn a_point_finds_the_patch_that_it_lies_on() {
+        let patches = Patches::new(&scene(odd_shapes()), 0.3).unwrap();
+        for k in 0..2 {
+            for i in patches.on_polygon(k) {
+                for (s, t) in [(0.5, 0.5), (0.1, 0.1), (0.9, 0.2), (0.8, 0.9)] {
+                    let point = patches.polygons[i].point(s, t);
+                    assert_eq!(patches.patch_at(k, point), i, "at {s} {t}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn nonsensical_sizes_are_refused() {
+        let scene = scene(odd_shapes());
+        for size in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(matches!(Patches::new(&scene, size), Err(PatchError::Size(_))));
+        }
+        assert!(matches!(Patches::new(&scene, 1e-5), Err(PatchError::TooMany { .. })));
+    }
+
+    #[test]
+    fn the_size_for_a_count_makes_about_that_many() {
+        let scene = scene(vec![odd_shapes().swap_remove(0)]);
+        let n = Patches::new(&scene, size_for_count(&scene, 1000)).unwrap().len();
+        assert!((900..1500).contains(&n), "{n}");
+    }
+}
