@@ -46,7 +46,7 @@ pub trait Value:
     }
 
     /// Whether no channel is infinite or NaN.
-    fn is_finite(&self) -> bool {
+    fn all_finite(&self) -> bool {
         self.channels().iter().all(|c| c.is_finite())
     }
 }

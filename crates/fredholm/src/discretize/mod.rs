@@ -1,0 +1,40 @@
+//! F_ij = the i-th coefficient of P_n(K u_j): what the number F_ij *is*, for each method of the paper.
+//!
+//! [`Nystrom`] replaces the integral by a rule; [`Collocation`] interpolates K u_j at the nodes; [`Galerkin`]
+//! takes its mean over the elements. How F is kept is the business of [`crate::operator`].
+
+mod nystrom;
+mod projection;
+
+pub use nystrom::Nystrom;
+pub use projection::{Collocation, Galerkin};
+
+use rayon::prelude::*;
+
+/// The numbers F_ij of a discretised integral operator, one unknown per element (P0) or node.
+pub trait Coupling: Sync {
+    /// The number of unknowns n; F is n × n.
+    fn dim(&self) -> usize;
+
+    /// F_ij: what unknown j sends to unknown i.
+    fn entry(&self, i: usize, j: usize) -> f64;
+
+    /// Positive weights w with w_i F_ij = w_j F_ji, when F is self-adjoint for the product Σ w_i u_i v_i.
+    /// Radiosity calls it reciprocity, with the patches' areas for weights. Assembly then computes half of F.
+    fn reciprocity(&self) -> Option<&[f64]> {
+        None
+    }
+}
+
+/// Row i of F, written to `row` (length n).
+pub(crate) fn fill_row(coupling: &impl Coupling, i: usize, row: &mut [f64]) {
+    for (j, entry) in row.iter_mut().enumerate() {
+        *entry = coupling.entry(i, j);
+    }
+}
+
+/// Column j of F, written to `column` (length n) by all cores.
+pub(crate) fn fill_column(coupling: &impl Coupling, j: usize, column: &mut [f64]) {
+    // 64 entries: some ten microseconds of form factors, a hundred times the cost of handing out the work.
+    column.par_iter_mut().enumerate().with_min_len(64).for_each(|(i, entry)| *entry = coupling.entry(i, j));
+}

@@ -1,0 +1,155 @@
+//! F kept whole, row by row, in single or double precision: n² numbers.
+
+use super::{Columns, Line, Matrix, Rows};
+use crate::discretize::{Coupling, fill_row};
+use rayon::prelude::*;
+
+/// A number as a matrix stores it: `f64`, or `f32` for half the memory.
+pub trait Entry: Copy + Send + Sync + Default + Into<f64> {
+    /// The nearest number that can be stored.
+    fn round(number: f64) -> Self;
+
+    /// Stored numbers as a [`Line`].
+    fn line(entries: &[Self]) -> Line<'_>;
+}
+
+impl Entry for f64 {
+    fn round(number: f64) -> Self {
+        number
+    }
+    fn line(entries: &[Self]) -> Line<'_> {
+        Line::Full(entries)
+    }
+}
+
+impl Entry for f32 {
+    fn round(number: f64) -> Self {
+        number as f32
+    }
+    fn line(entries: &[Self]) -> Line<'_> {
+        Line::Packed(entries)
+    }
+}
+
+/// A dense matrix, stored by rows.
+#[derive(Clone, Debug)]
+pub struct Dense<T> {
+    dim: usize,
+    entries: Vec<T>,
+}
+
+/// An entry of F that is infinite or NaN: the kernel is singular where the rule samples it, or its arguments are wrong.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("F[{row}, {column}] is {value}: the kernel is not finite where the rule samples it")]
+pub struct NotFinite {
+    /// The row i.
+    pub row: usize,
+    /// The column j.
+    pub column: usize,
+    /// The value: infinite or NaN.
+    pub value: f64,
+}
+
+impl<T: Entry> Dense<T> {
+    /// Computes all entries on all cores; half of them where the coupling has reciprocity.
+    ///
+    /// `progress` is told the number of entries newly computed, from any thread.
+    pub fn assemble<C: Coupling>(coupling: &C, progress: impl Fn(usize) + Sync) -> Result<Self, NotFinite> {
+        let dim = coupling.dim();
+        let mut matrix = Self { dim, entries: vec![T::default(); dim * dim] };
+        match coupling.reciprocity() {
+            None => matrix.fill(coupling, progress)?,
+            Some(weights) => {
+                matrix.fill_upper(coupling, progress)?;
+                matrix.mirror(weights);
+            }
+        }
+        Ok(matrix)
+    }
+
+    fn fill(&mut self, coupling: &impl Coupling, progress: impl Fn(usize) + Sync) -> Result<(), NotFinite> {
+        let rows = self.entries.par_chunks_mut(self.dim.max(1)).enumerate();
+        rows.try_for_each_init(
+            || vec![0.0; coupling.dim()],
+            |buffer, (i, row)| {
+                fill_row(coupling, i, buffer);
+                progress(buffer.len());
+                store(buffer, row, i, 0)
+            },
+        )
+    }
+
+    /// The diagonal and what lies right of it.
+    fn fill_upper(
+        &mut self,
+        coupling: &impl Coupling,
+        progress: impl Fn(usize) + Sync,
+    ) -> Result<(), NotFinite> {
+        let rows = self.entries.par_chunks_mut(self.dim.max(1)).enumerate();
+        rows.with_max_len(1).try_for_each_init(Vec::new, |buffer, (i, row)| {
+            buffer.clear();
+            buffer.extend((i..coupling.dim()).map(|j| coupling.entry(i, j)));
+            progress(buffer.len());
+            store(buffer, &mut row[i..], i, i)
+        })
+    }
+
+    /// F_ij = F_ji w_j / w_i for j < i.
+    fn mirror(&mut self, weights: &[f64]) {
+        // Rows in bands: those above a band are finished and can be read while the band is written.
+        const BAND: usize = 64;
+        for start in (0..self.dim).step_by(BAND) {
+            let end = (start + BAND).min(self.dim);
+            let dim = self.dim;
+            let (above, below) = self.entries.split_at_mut(start * dim);
+            let band = &mut below[..(end - start) * dim];
+            band.par_chunks_mut(dim).enumerate().for_each(|(k, row)| {
+                let i = start + k;
+                for j in 0..start {
+                    row[j] = T::round(above[j * dim + i].into() * weights[j] / weights[i]);
+                }
+            });
+            for i in start..end {
+                for j in start..i {
+                    let mirrored = band[(j - start) * dim + i].into() * weights[j] / weights[i];
+                    band[(i - start) * dim + j] = T::round(mirrored);
+                }
+            }
+        }
+    }
+}
+
+/// Rounds the numbers of row i, from column `first` on, into their place.
+fn store<T: Entry>(numbers: &[f64], row: &mut [T], i: usize, first: usize) -> Result<(), NotFinite> {
+    for (k, (&value, place)) in numbers.iter().zip(row).enumerate() {
+        if !value.is_finite() {
+            return Err(NotFinite { row: i, column: first + k, value });
+        }
+        *place = T::round(value);
+    }
+    Ok(())
+}
+
+impl<T: Entry> Matrix for Dense<T> {
+    fn dim(&self) -> usize {
+        self.dim
+    }
+
+    fn diagonal(&self, i: usize) -> f64 {
+        self.entries[i * self.dim + i].into()
+    }
+}
+
+impl<T: Entry> Rows for Dense<T> {
+    fn row<'a>(&'a self, i: usize, _buffer: &'a mut Vec<f64>) -> Line<'a> {
+        T::line(&self.entries[i * self.dim..][..self.dim])
+    }
+}
+
+impl<T: Entry> Columns for Dense<T> {
+    fn column<'a>(&'a self, j: usize, buffer: &'a mut Vec<f64>) -> Line<'a> {
+        buffer.clear();
+        buffer.extend((0..self.dim).map(|i| self.entries[i * self.dim + j].into()));
+        Line::Full(buffer)
+    }
+}

@@ -1,0 +1,61 @@
+//! How F is *kept*, and what a solver may ask of it: its action, its rows, its columns.
+//!
+//! Successive approximations and Krylov methods ask only for u ↦ F u; Gauss–Seidel *gathers* along rows;
+//! Southwell *shoots* along columns. That is the last remark of the paper's §3.5.2, made into three traits:
+//! a solver on an operator that cannot give what it asks for does not compile.
+
+mod dense;
+mod line;
+mod on_the_fly;
+
+pub use dense::{Dense, Entry, NotFinite};
+pub use line::Line;
+pub use on_the_fly::OnTheFly;
+
+use crate::value::Value;
+use rayon::prelude::*;
+
+/// A square matrix known by its size and diagonal.
+pub trait Matrix: Sync {
+    /// The number of rows and columns.
+    fn dim(&self) -> usize;
+
+    /// F_ii.
+    fn diagonal(&self, i: usize) -> f64;
+}
+
+/// A matrix with an action u ↦ F u.
+#[diagnostic::on_unimplemented(message = "`{Self}` has no action u ↦ F u on values `{V}`")]
+pub trait Operator<V>: Matrix {
+    /// `out` = F u; both have length `dim()`.
+    fn apply(&self, u: &[V], out: &mut [V]);
+}
+
+/// A matrix whose rows can be read: what unknown i gathers from all others.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no rows to gather along",
+    note = "Gauss–Seidel updates one unknown from all the others and needs row i of F: keep F `Dense` or `OnTheFly`, or use a method that needs only the action of F (successive approximations, GMRES)"
+)]
+pub trait Rows: Matrix {
+    /// Row i, a view of what is stored or computed into `buffer`.
+    fn row<'a>(&'a self, i: usize, buffer: &'a mut Vec<f64>) -> Line<'a>;
+}
+
+/// A matrix whose columns can be read: what unknown j shoots to all others.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no columns to shoot along",
+    note = "Southwell's method sends one unknown's residual to all the others and needs column j of F: keep F `Dense` or `OnTheFly`, or use a method that needs only the action of F (successive approximations, GMRES)"
+)]
+pub trait Columns: Matrix {
+    /// Column j, computed or gathered into `buffer`.
+    fn column<'a>(&'a self, j: usize, buffer: &'a mut Vec<f64>) -> Line<'a>;
+}
+
+/// A matrix with rows has an action: (F u)_i = row i · u, the rows shared among all cores.
+impl<V: Value, R: Rows> Operator<V> for R {
+    fn apply(&self, u: &[V], out: &mut [V]) {
+        out.par_iter_mut().enumerate().for_each_init(Vec::new, |buffer, (i, value)| {
+            *value = self.row(i, buffer).dot(u);
+        });
+    }
+}
