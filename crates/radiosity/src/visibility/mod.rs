@@ -1,0 +1,124 @@
+//! Room 3: V(s, t) = 1 where no polygon cuts the open segment from s to t, else 0.
+//!
+//! Rays go against the polygons of the scene, never against the patches that these are cut into: the answer is
+//! the same, and there are far fewer of them. Eight boxes, then eight triangles, are tried at a time in f32 with
+//! margins that let nothing slip; what they find is decided in f64.
+//!
+//! A point *on* a polygon (nearer to its plane than 1e-9 of the scene's extent) is never hidden by it, and a
+//! segment in its plane never cut. Edges belong to polygons, so no light leaks where two of them meet.
+
+mod build;
+mod bvh;
+mod facet;
+mod packet;
+mod ray;
+mod shaft;
+mod walls;
+
+use crate::polygon::Polygon;
+use bvh::Bvh;
+use facet::{Facet, Frame};
+use glam::DVec3;
+use ray::{Blocker, Nearest, Ray};
+use shaft::Shaft;
+
+/// May s and t see each other?
+#[derive(Clone, Debug)]
+pub struct Visibility {
+    frame: Frame,
+    facets: Vec<Facet>,
+    /// What can hide something.
+    occluders: Bvh,
+    /// What has the whole scene on one side of its plane and hides nothing: the walls of a convex room.
+    walls: Bvh,
+}
+
+/// Where a ray meets the first polygon on its way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// The polygon, by its index in the slice given to [`Visibility::new`].
+    pub polygon: u32,
+    /// How far from the ray's origin, in metres.
+    pub distance: f64,
+}
+
+impl Visibility {
+    /// Prepares the polygons of a scene; their indices in this slice are what answers name them by.
+    pub fn new(polygons: &[Polygon]) -> Self {
+        let frame = Frame::around(polygons);
+        let facets: Vec<Facet> = polygons.iter().map(|p| Facet::new(p, &frame)).collect();
+        let triangles: Vec<_> = polygons
+            .iter()
+            .zip(0..)
+            .flat_map(|(p, k)| p.triangles().map(move |t| (t.map(|v| frame.point(v)), k)))
+            .collect();
+        let all = Bvh::new(&triangles);
+        let is_wall = walls::walls(&facets, &all);
+        let (walls, occluders): (Vec<_>, Vec<_>) =
+            triangles.into_iter().partition(|&(_, k)| is_wall[k as usize]);
+        let occluders = if walls.is_empty() { all } else { Bvh::new(&occluders) };
+        Self { frame, facets, occluders, walls: Bvh::new(&walls) }
+    }
+
+    /// Whether no polygon cuts the open segment from s to t, two points of the scene, in metres.
+    pub fn unoccluded(&self, s: DVec3, t: DVec3) -> bool {
+        self.blocker(s, t).is_none()
+    }
+
+    /// Any polygon that cuts the open segment from s to t.
+    ///
+    /// Polygons whose plane has the whole scene on one side are left out: they are between no two points of it.
+    pub fn blocker(&self, s: DVec3, t: DVec3) -> Option<u32> {
+        if self.occluders.is_empty() {
+            return None;
+        }
+        let (s, t) = (self.frame.point(s), self.frame.point(t));
+        let mut query = Blocker { facets: &self.facets, s, t, ray: Ray::new(s, t)?, found: None };
+        self.occluders.walk(&mut query);
+        query.found
+    }
+
+    /// The first polygon, seen from either side, that a ray meets; `direction` is a unit vector.
+    pub fn nearest(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
+        let s = self.frame.point(origin);
+        // The scene lies within √3/2 of its centre.
+        let reach = s.length() + 1.0;
+        let t = s + reach * direction;
+        let mut query = Nearest { facets: &self.facets, s, t, ray: Ray::new(s, t)?, found: None };
+        self.occluders.walk(&mut query);
+        self.walls.walk(&mut query);
+        query.found.map(|(polygon, at)| Hit { polygon, distance: self.frame.metres(at * reach) })
+    }
+
+    /// Whether it is proved that no polygon cuts any segment from a to b; false means "not known".
+    ///
+    /// The segments fill the convex hull of a and b, so a plane with the hull on one side and a polygon on the other
+    /// is the proof. The two must be clipped to lie in front of each other; then what lies behind either, or only
+    /// touches its plane, is out of the way too. Segments within the plane of a or of b, along which no light
+    /// goes, are not spoken of.
+    pub fn certainly_clear(&self, a: &Polygon, b: &Polygon) -> bool {
+        if self.occluders.is_empty() {
+            return true;
+        }
+        if a.normal() == DVec3::ZERO || b.normal() == DVec3::ZERO {
+            return false;
+        }
+        let (a, b) = (Facet::new(a, &self.frame), Facet::new(b, &self.frame));
+        let mut query = Shaft::new(&self.facets, &a, &b);
+        self.occluders.walk(&mut query);
+        query.clear
+    }
+
+    /// Whether it is proved that the one polygon `id` cuts every segment from a to b; false means "not known".
+    ///
+    /// It is, when it cuts each segment between a vertex a_i and a vertex b_j. For then its plane has a on one side, at
+    /// heights g_i, and b on the other, at depths h_j, and the segment from s = Σ α_i a_i to t = Σ β_j b_j goes
+    /// through the plane at a weighted mean of the points x_ij where the vertices' segments do, with the weights
+    /// α_i β_j (g_i + h_j) ≥ 0. The x_ij are in the polygon, it is convex, so their mean is in it.
+    pub fn certainly_blocks(&self, id: u32, a: &Polygon, b: &Polygon) -> bool {
+        let facet = &self.facets[id as usize];
+        let unit = |p: &Polygon| Facet::new(p, &self.frame);
+        let (a, b) = (unit(a), unit(b));
+        a.vertices().iter().all(|&s| b.vertices().iter().all(|&t| facet.cut(s, t).is_some()))
+    }
+}
