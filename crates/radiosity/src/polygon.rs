@@ -94,7 +94,8 @@ mod tests {
     #[test]
     fn a_trapezoid_has_its_area_and_centre_of_mass() {
         // Corners (0,0) (4,0) (2,2) (0,2): area 6, centroid (14/9, 8/9).
-        let p = Polygon::quadrilateral(DVec3::ZERO, 4.0 * DVec3::X, DVec3::new(2.0, 2.0, 0.0), 2.0 * DVec3::Y);
+        let p =
+            Polygon::quadrilateral(DVec3::ZERO, 4.0 * DVec3::X, DVec3::new(2.0, 2.0, 0.0), 2.0 * DVec3::Y);
         assert!((p.area() - 6.0).abs() < 1e-15);
         assert!(p.centroid().distance(DVec3::new(14.0 / 9.0, 8.0 / 9.0, 0.0)) < 1e-15);
         assert_eq!(p.normal(), DVec3::Z);
@@ -107,7 +108,9 @@ mod tests {
         let p = Polygon::triangle(DVec3::ZERO, DVec3::X, DVec3::Y);
         let n = 100;
         let mean = (0..n * n)
-            .map(|k| p.point((0.5 + f64::from(k % n)) / f64::from(n), (0.5 + f64::from(k / n)) / f64::from(n)))
+            .map(|k| {
+                p.point((0.5 + f64::from(k % n)) / f64::from(n), (0.5 + f64::from(k / n)) / f64::from(n))
+            })
             .sum::<DVec3>()
             / f64::from(n * n);
         assert!(mean.distance(p.centroid()) < 1e-4);
