@@ -56,8 +56,9 @@ fn farthest_pair(corners: &[DVec3]) -> (usize, usize) {
 }
 
 fn check_distinct(shape: &[DVec3]) -> Result<(), Problem> {
-    // Negated, so that the NaN of a face with diameter zero is caught as well.
-    match pairs(shape.len()).find(|&(i, j)| !(shape[i].distance(shape[j]) > NOTHING)) {
+    // A face of diameter zero has become 0/0, and NaN is near nothing: hence "not apart" rather than "close".
+    let apart = |i: usize, j: usize| shape[i].distance(shape[j]) > NOTHING;
+    match pairs(shape.len()).find(|&(i, j)| !apart(i, j)) {
         Some((i, j)) => Err(Problem::RepeatedCorner { first: i + 1, second: j + 1 }),
         None => Ok(()),
     }

@@ -225,7 +225,8 @@ impl CameraEntry {
         let position = DVec3::from(self.position) * metres;
         let direction = match (self.target, self.direction) {
             (Some(target), None) => DVec3::from(target) * metres - position,
-            (None, Some(direction)) => DVec3::from(direction).normalize_or_zero(),
+            // Of length 1, so that it survives beside a distant position; zero and NaN stay, for `check` to see.
+            (None, Some(direction)) => DVec3::from(direction).normalize_or(direction.into()),
             _ => {
                 let one = "the camera needs either a `target` or a `direction`; give one of them";
                 return Err(Problem::Malformed(one.to_owned()));

@@ -15,18 +15,13 @@ use std::path::Path;
 
 /// The mesh of a file whose unit of length is so many `metres`; `named_at` is where the file's name stands.
 pub(super) fn read(file: &Path, metres: f64, named_at: &Place) -> Result<Mesh, Error> {
-    let text = text::read(file, named_at)?;
-    let mut reader = Reader {
-        file,
-        metres,
-        vertices: Vec::new(),
-        current: State::default(),
-        known: BTreeMap::new(),
-        mesh: Mesh::default(),
-    };
-    for statement in text::statements(&text) {
-        reader.take(&statement)?;
-    }
+    parse(file, &text::read(file, named_at)?, metres)
+}
+
+fn parse(file: &Path, text: &str, metres: f64) -> Result<Mesh, Error> {
+    let (vertices, current, known, mesh) = Default::default();
+    let mut reader = Reader { file, metres, vertices, current, known, mesh };
+    text::statements(text).try_for_each(|statement| reader.take(&statement))?;
     Ok(reader.mesh)
 }
 
@@ -135,19 +130,7 @@ mod tests {
     use super::*;
 
     fn mesh(text: &str, metres: f64) -> Mesh {
-        let file = Path::new("none.obj");
-        let mut reader = Reader {
-            file,
-            metres,
-            vertices: Vec::new(),
-            current: State::default(),
-            known: BTreeMap::new(),
-            mesh: Mesh::default(),
-        };
-        for statement in text::statements(text) {
-            reader.take(&statement).unwrap();
-        }
-        reader.mesh
+        parse(Path::new("none.obj"), text, metres).unwrap()
     }
 
     const SQUARE: &str = "v 0 0 0 1\nv 1 0 0\nv 1 1 0 .5 .5 .5\nv 0 1 0\n";
