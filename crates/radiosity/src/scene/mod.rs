@@ -1,8 +1,29 @@
 //! Room 1: a scene is surfaces with materials, in metres, and perhaps a camera.
 
+//!
+//! [`load`] reads a mesh (`.obj` with its `.mtl`, in metres) or a scene file (`.toml`: meshes, their unit, materials
+//! in place of the meshes' own, a camera, wishes on how to solve). [`cornell_box`] is built in. Surfaces are diffuse
+//! and one-sided. Whatever the door, the same is checked: see [`Problem`]; all tolerances are relative to the size of
+//! a face, so that a scene in millimetres behaves like one in kilometres.
+
 mod camera;
+mod check;
+mod cornell;
+mod cut;
+mod error;
+mod file;
+mod load;
+mod material;
+mod mesh;
+mod mtl;
+mod obj;
+mod text;
 
 pub use camera::Camera;
+pub use cornell::{cornell_box, cornell_box_spectral};
+pub use cut::cut;
+pub use error::{Error, Place, Problem};
+pub use load::{Loaded, SolveOptions, load};
 
 use crate::polygon::Polygon;
 use fredholm::value::Value;

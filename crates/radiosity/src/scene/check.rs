@@ -1,0 +1,96 @@
+//! What must hold of a scene, by whichever door it came in: 0 ≤ ρ < 1, 0 ≤ E < ∞, some face, some light.
+
+use super::error::Problem;
+use super::{Camera, Scene, Surface};
+use fredholm::value::Value;
+
+impl<V: Value> Scene<V> {
+    /// Checks a scene that was built by hand as the readers check theirs; faces are checked by [`super::cut()`].
+    ///
+    /// # Errors
+    ///
+    /// When a reflectance lies outside [0, 1), an emission is negative or infinite, a polygon has no area, the camera
+    /// cannot see, or there are no faces or no light at all.
+    pub fn check(&self) -> Result<(), Problem> {
+        self.surfaces.iter().try_for_each(surface)?;
+        if self.surfaces.iter().all(|surface| surface.polygons.is_empty()) {
+            return Err(Problem::NoFaces);
+        }
+        if self.surfaces.iter().all(|surface| surface.emission.magnitude() == 0.0) {
+            return Err(Problem::NoLight);
+        }
+        self.camera.as_ref().map_or(Ok(()), Camera::check)
+    }
+}
+
+fn surface<V: Value>(surface: &Surface<V>) -> Result<(), Problem> {
+    let owner = format!("surface `{}`", surface.name);
+    reflectance(&owner, &surface.reflectance)?;
+    emission(&owner, &surface.emission)?;
+    match surface.polygons.iter().find(|polygon| !(polygon.area() > 0.0 && polygon.area().is_finite())) {
+        Some(polygon) => Err(Problem::Degenerate(polygon.vertices().len())),
+        None => Ok(()),
+    }
+}
+
+pub(super) fn reflectance<V: Value>(owner: &str, reflectance: &V) -> Result<(), Problem> {
+    match first_outside(reflectance, |c| (0.0..1.0).contains(&c)) {
+        Some((channel, value)) => Err(Problem::Reflectance { owner: owner.to_owned(), channel, value }),
+        None => Ok(()),
+    }
+}
+
+pub(super) fn emission<V: Value>(owner: &str, emission: &V) -> Result<(), Problem> {
+    match first_outside(emission, |c| (0.0..f64::INFINITY).contains(&c)) {
+        Some((channel, value)) => Err(Problem::Emission { owner: owner.to_owned(), channel, value }),
+        None => Ok(()),
+    }
+}
+
+/// The first channel, counted from 1, that is not as it should be.
+fn first_outside<V: Value>(value: &V, is_good: impl Fn(f64) -> bool) -> Option<(usize, f64)> {
+    (1..).zip(value.channels().iter().copied()).find(|&(_, c)| !is_good(c))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::polygon::Polygon;
+    use fredholm::value::{Rgb, Spectrum};
+    use glam::DVec3;
+
+    fn lamp(reflectance: Rgb, emission: Rgb) -> Scene<Rgb> {
+        let polygons = vec![Polygon::triangle(DVec3::ZERO, DVec3::X, DVec3::Y)];
+        let surfaces = vec![Surface { name: "lamp".to_owned(), reflectance, emission, polygons }];
+        Scene { name: "test".to_owned(), surfaces, camera: None }
+    }
+
+    #[test]
+    fn reflectance_and_emission_are_checked_by_channel() {
+        let one = Rgb::splat(1.0);
+        assert!(lamp(Rgb::splat(0.0), one).check().is_ok());
+        assert!(lamp(Rgb::splat(1.0 - f64::EPSILON), one).check().is_ok());
+        for bad in [1.0, -1e-300, f64::NAN] {
+            let problem = lamp(Spectrum([0.5, bad, 0.5]), one).check().unwrap_err();
+            assert!(
+                matches!(&problem, Problem::Reflectance { owner, channel: 2, .. } if owner == "surface `lamp`")
+            );
+        }
+        for bad in [f64::INFINITY, -1.0, f64::NAN] {
+            let problem = lamp(Rgb::splat(0.5), Spectrum([1.0, 1.0, bad])).check().unwrap_err();
+            assert!(matches!(problem, Problem::Emission { channel: 3, .. }));
+        }
+    }
+
+    #[test]
+    fn a_scene_needs_faces_with_area_and_light() {
+        assert!(matches!(lamp(Rgb::splat(0.5), Rgb::splat(0.0)).check(), Err(Problem::NoLight)));
+        let mut scene = lamp(Rgb::splat(0.5), Rgb::splat(1.0));
+        scene.surfaces[0].polygons = vec![Polygon::triangle(DVec3::ZERO, DVec3::X, 2.0 * DVec3::X)];
+        assert!(matches!(scene.check(), Err(Problem::Degenerate(3))));
+        scene.surfaces[0].polygons.clear();
+        assert!(matches!(scene.check(), Err(Problem::NoFaces)));
+        scene.surfaces.clear();
+        assert!(matches!(scene.check(), Err(Problem::NoFaces)));
+    }
+}

@@ -1,0 +1,247 @@
+//! The scene file (TOML): which meshes, in which unit, of which materials, seen from where, solved how.
+//!
+//! ```toml
+//! name = "Office"                       # optional; else the file's name
+//! unit = "mm"                           # of the meshes and of every length here: mm, cm, m, in, ft, or metres as a number
+//! meshes = ["room.obj", "desk.obj"]     # beside this file
+//!
+//! [materials.white]                     # a material by its name in the meshes; what is not given stays as it is there
+//! reflectance = 0.8                     # or [red, green, blue]
+//! radiance = [17, 12, 4]                # W/(m² sr); or `emission`, the exitance π × radiance in W/m²
+//!
+//! [camera]
+//! position = [1000, -3000, 1500]
+//! target = [1000, 0, 1200]              # or `direction`
+//! up = [0, 0, 1]                        # optional: this, or [0, 1, 0] for a camera that looks along z
+//! vertical_angle = 40                   # degrees
+//!
+//! [solve]                               # optional, all of it
+//! patch_size = 20
+//! method = "galerkin"
+//! solver = "gauss-seidel"
+//! accuracy = 1e-3
+//! tolerance = 1e-6
+//! ```
+
+use super::error::{Error, Place, Problem};
+use super::load::{Loaded, SolveOptions, read_mesh};
+use super::material::{Located, Material};
+use super::mesh::{self, Mesh};
+use super::{Camera, Scene, text};
+use fredholm::value::{Rgb, Spectrum};
+use glam::DVec3;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+use std::ops::Range;
+use std::path::Path;
+use toml::Spanned;
+
+/// The scene of a TOML file and what it says on how to solve it.
+pub(super) fn load(file: &Path) -> Result<Loaded, Error> {
+    let text = text::read(file, &Place::file(file))?;
+    let source = Source { file, text: &text };
+    let entry: SceneEntry = toml::from_str(&text).map_err(|error| source.syntax(&error))?;
+    let Unit(metres) = entry.unit;
+    let meshes = source.meshes(&entry.meshes, metres)?;
+    let places = entry.materials.keys().map(|name| (name.get_ref().as_str(), source.place(&name.span())));
+    mesh::check_overrides_are_used(&meshes, places)?;
+    let overrides = source.overrides(&entry.materials)?;
+    let camera = entry.camera.map(|camera| source.camera(&camera, metres)).transpose()?;
+    let scene = Scene {
+        name: entry.name.unwrap_or_else(|| super::load::file_name(file)),
+        surfaces: mesh::surfaces(meshes, &overrides)?,
+        camera,
+    };
+    let mut solve = entry.solve;
+    solve.patch_size = solve.patch_size.map(|size| size * metres);
+    Ok(Loaded { scene, solve })
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SceneEntry {
+    name: Option<String>,
+    unit: Unit,
+    meshes: Spanned<Vec<Spanned<String>>>,
+    #[serde(default)]
+    materials: BTreeMap<Spanned<String>, MaterialEntry>,
+    camera: Option<Spanned<CameraEntry>>,
+    #[serde(default)]
+    solve: SolveOptions,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MaterialEntry {
+    reflectance: Option<Spanned<Channels>>,
+    radiance: Option<Spanned<Channels>>,
+    emission: Option<Spanned<Channels>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CameraEntry {
+    position: [f64; 3],
+    target: Option<[f64; 3]>,
+    direction: Option<[f64; 3]>,
+    up: Option<[f64; 3]>,
+    vertical_angle: f64,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(untagged, expecting = "expected a number or [red, green, blue]")]
+enum Channels {
+    Grey(f64),
+    Colour([f64; 3]),
+}
+
+impl Channels {
+    fn colour(self) -> Rgb {
+        match self {
+            Self::Grey(grey) => Spectrum([grey; 3]),
+            Self::Colour(colour) => Spectrum(colour),
+        }
+    }
+}
+
+/// A unit of length, in metres.
+#[derive(Deserialize)]
+#[serde(try_from = "UnitEntry")]
+struct Unit(f64);
+
+#[derive(Deserialize)]
+#[serde(
+    untagged,
+    expecting = "expected a unit of length: \"mm\", \"cm\", \"m\", \"in\", \"ft\" or metres as a number"
+)]
+enum UnitEntry {
+    Name(String),
+    Metres(f64),
+}
+
+impl TryFrom<UnitEntry> for Unit {
+    type Error = String;
+
+    fn try_from(entry: UnitEntry) -> Result<Self, String> {
+        let metres = match entry {
+            UnitEntry::Metres(metres) if metres > 0.0 && metres.is_finite() => metres,
+            UnitEntry::Metres(metres) => {
+                return Err(format!("a unit of {metres} m is no length; give a positive number of metres"));
+            }
+            UnitEntry::Name(name) => match name.as_str() {
+                "mm" => 1e-3,
+                "cm" => 1e-2,
+                "m" => 1.0,
+                "in" => 0.0254,
+                "ft" => 0.3048,
+                _ => {
+                    return Err(format!(
+                        "the unit `{name}` is unknown; write mm, cm, m, in, ft or metres as a number"
+                    ));
+                }
+            },
+        };
+        Ok(Self(metres))
+    }
+}
+
+/// For the numbers of [`SolveOptions`]: all are sizes, of which zero and less would never end.
+pub(super) fn positive<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
+    let value = f64::deserialize(deserializer)?;
+    if value > 0.0 && value.is_finite() {
+        Ok(Some(value))
+    } else {
+        Err(D::Error::custom(format!("{value} is not a positive number; give one, or leave the entry out")))
+    }
+}
+
+/// The file, to turn places in its text into lines.
+struct Source<'a> {
+    file: &'a Path,
+    text: &'a str,
+}
+
+impl Source<'_> {
+    fn place(&self, span: &Range<usize>) -> Place {
+        let before = self.text.as_bytes().iter().take(span.start);
+        Place::line(self.file, 1 + before.filter(|&&byte| byte == b'\n').count())
+    }
+
+    fn syntax(&self, error: &toml::de::Error) -> Error {
+        let place = error.span().map_or_else(|| Place::file(self.file), |span| self.place(&span));
+        Problem::Malformed(error.message().replace('\n', "; ")).at(place)
+    }
+
+    fn meshes(&self, names: &Spanned<Vec<Spanned<String>>>, metres: f64) -> Result<Vec<Mesh>, Error> {
+        if names.get_ref().is_empty() {
+            let problem = Problem::Malformed("`meshes` is empty; name at least one .obj file".to_owned());
+            return Err(problem.at(self.place(&names.span())));
+        }
+        let read = |name: &Spanned<String>| {
+            read_mesh(&self.file.with_file_name(name.get_ref()), metres, &self.place(&name.span()))
+        };
+        names.get_ref().iter().map(read).collect()
+    }
+
+    fn overrides(
+        &self,
+        entries: &BTreeMap<Spanned<String>, MaterialEntry>,
+    ) -> Result<BTreeMap<String, Material>, Error> {
+        entries.iter().map(|(name, entry)| Ok((name.get_ref().clone(), self.material(entry)?))).collect()
+    }
+
+    fn material(&self, entry: &MaterialEntry) -> Result<Material, Error> {
+        let located = |channels: &Spanned<Channels>, factor: f64| Located {
+            value: channels.get_ref().colour() * factor,
+            place: self.place(&channels.span()),
+        };
+        let emission = match (&entry.radiance, &entry.emission) {
+            (Some(_), Some(emission)) => {
+                let both =
+                    "`radiance` and `emission` say the same, emission = π × radiance; give one of them";
+                return Err(Problem::Malformed(both.to_owned()).at(self.place(&emission.span())));
+            }
+            (Some(radiance), None) => Some(located(radiance, PI)),
+            (None, emission) => emission.as_ref().map(|emission| located(emission, 1.0)),
+        };
+        Ok(Material {
+            reflectance: entry.reflectance.as_ref().map(|channels| located(channels, 1.0)),
+            emission,
+        })
+    }
+
+    fn camera(&self, entry: &Spanned<CameraEntry>, metres: f64) -> Result<Camera, Error> {
+        let camera = entry.get_ref().camera(metres);
+        camera
+            .and_then(|camera| camera.check().map(|()| camera))
+            .map_err(|problem| problem.at(self.place(&entry.span())))
+    }
+}
+
+impl CameraEntry {
+    fn camera(&self, metres: f64) -> Result<Camera, Problem> {
+        let position = DVec3::from(self.position) * metres;
+        let direction = match (self.target, self.direction) {
+            (Some(target), None) => DVec3::from(target) * metres - position,
+            // Of length 1, so that it survives beside a distant position; zero and NaN stay, for `check` to see.
+            (None, Some(direction)) => DVec3::from(direction).normalize_or(direction.into()),
+            _ => {
+                let one = "the camera needs either a `target` or a `direction`; give one of them";
+                return Err(Problem::Malformed(one.to_owned()));
+            }
+        };
+        Ok(Camera {
+            position,
+            target: position + direction,
+            up: self.up.map_or_else(|| usual_up(direction), DVec3::from),
+            vertical_angle: self.vertical_angle.to_radians(),
+        })
+    }
+}
+
+/// z, as buildings have it, unless the camera looks along z: then y, as pictures have it.
+fn usual_up(direction: DVec3) -> DVec3 {
+    if direction.truncate().length() > 1e-6 * direction.length() { DVec3::Z } else { DVec3::Y }
+}

@@ -1,0 +1,74 @@
+//! The door of room 1: a path becomes a scene, by the reader that its extension names.
+
+use super::error::{Error, Place, Problem};
+use super::mesh::{self, Mesh};
+use super::{Scene, file, obj};
+use fredholm::value::Rgb;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// A scene and its author's word on how to solve it.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The scene, checked.
+    pub scene: Scene<Rgb>,
+    /// What the file says in place of the defaults.
+    pub solve: SolveOptions,
+}
+
+/// How a scene asks to be solved; `None` where it does not say.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SolveOptions {
+    /// The largest side of a patch: in the file in its unit of length, after [`load`] in metres.
+    #[serde(deserialize_with = "file::positive")]
+    pub patch_size: Option<f64>,
+    /// The discretisation, by name.
+    pub method: Option<String>,
+    /// The relaxation or the direct solver, by name.
+    pub solver: Option<String>,
+    /// The error of a form factor that is aimed at.
+    #[serde(deserialize_with = "file::positive")]
+    pub accuracy: Option<f64>,
+    /// The residual at which to stop, relative to the source.
+    #[serde(deserialize_with = "file::positive")]
+    pub tolerance: Option<f64>,
+}
+
+/// Reads a scene: a `.toml` scene file, or a mesh alone, whose lengths are then metres.
+///
+/// # Errors
+///
+/// When a file cannot be read or understood, or the scene is none that can be solved: see [`Problem`].
+pub fn load(path: &Path) -> Result<Loaded, Error> {
+    let loaded = match extension(path).as_str() {
+        "toml" => file::load(path)?,
+        _ => bare_mesh(path)?,
+    };
+    loaded.scene.check().map_err(|problem| problem.at(Place::file(path)))?;
+    Ok(loaded)
+}
+
+fn bare_mesh(path: &Path) -> Result<Loaded, Error> {
+    let mesh = read_mesh(path, 1.0, &Place::file(path))?;
+    let surfaces = mesh::surfaces(vec![mesh], &BTreeMap::new())?;
+    let scene = Scene { name: file_name(path), surfaces, camera: None };
+    Ok(Loaded { scene, solve: SolveOptions::default() })
+}
+
+/// The mesh of a file, by its extension; lengths in the file are so many `metres`.
+pub(super) fn read_mesh(path: &Path, metres: f64, named_at: &Place) -> Result<Mesh, Error> {
+    match extension(path).as_str() {
+        "obj" => obj::read(path, metres, named_at),
+        other => Err(Problem::UnknownFormat(other.to_owned()).at(named_at.clone())),
+    }
+}
+
+fn extension(path: &Path) -> String {
+    path.extension().map_or_else(String::new, |extension| extension.to_string_lossy().to_lowercase())
+}
+
+pub(super) fn file_name(path: &Path) -> String {
+    path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}
