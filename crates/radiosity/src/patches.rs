@@ -97,6 +97,11 @@ impl<V: Value> Patches<V> {
         self.grids[polygon as usize].patch_at(point)
     }
 
+    /// The unit normal of input polygon number `polygon`, on its front.
+    pub fn normal_of(&self, polygon: u32) -> DVec3 {
+        self.grids[polygon as usize].whole.normal()
+    }
+
     /// Which patches lie on input polygon number `polygon`.
     pub fn on_polygon(&self, polygon: u32) -> std::ops::Range<usize> {
         let grid = &self.grids[polygon as usize];

@@ -80,6 +80,61 @@ impl Polygon {
         }
     }
 
+    /// dA/(ds dt) of [`Self::point`], in m²: the area that a unit of the square is stretched to.
+    pub fn density(&self, s: f64, t: f64) -> f64 {
+        let [a, b, c, d] = self.vertices;
+        if self.sides == 3 {
+            return self.area;
+        }
+        let along = (b - a) * (1.0 - t) + (c - d) * t;
+        let across = (d - a) * (1.0 - s) + (c - b) * s;
+        along.cross(across).dot(self.normal)
+    }
+
+    /// The four similar parts between its corners, the middles of its edges and, in a quadrilateral, its middle.
+    pub fn quarters(&self) -> [Self; 4] {
+        let [a, b, c, d] = self.vertices;
+        if self.sides == 3 {
+            let (ab, bc, ca) = (a.midpoint(b), b.midpoint(c), c.midpoint(a));
+            return [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
+                .map(|[p, q, r]| Self::triangle(p, q, r));
+        }
+        let (ab, bc, cd, da) = (a.midpoint(b), b.midpoint(c), c.midpoint(d), d.midpoint(a));
+        let middle = ab.midpoint(cd);
+        [[a, ab, middle, da], [ab, b, bc, middle], [middle, bc, c, cd], [da, middle, cd, d]]
+            .map(|[p, q, r, s]| Self::quadrilateral(p, q, r, s))
+    }
+
+    /// The part in front of the plane of `other`, in at most two pieces; the whole when no corner is behind it.
+    pub fn in_front_of(&self, other: &Self) -> impl Iterator<Item = Self> + use<> {
+        let v = self.vertices();
+        let heights: [f64; 4] = std::array::from_fn(|k| other.height_of(self.vertices[k]));
+        let mut kept = [DVec3::ZERO; 5];
+        let mut count = 0;
+        let mut keep = |point| {
+            kept[count] = point;
+            count += 1;
+        };
+        for k in 0..v.len() {
+            let next = (k + 1) % v.len();
+            let (h, h_next) = (heights[k], heights[next]);
+            if h >= 0.0 {
+                keep(v[k]);
+            }
+            if (h < 0.0 && h_next > 0.0) || (h > 0.0 && h_next < 0.0) {
+                keep(v[k].lerp(v[next], h / (h - h_next)));
+            }
+        }
+        let [a, b, c, d, e] = kept;
+        let pieces = match count {
+            3 => [Some(Self::triangle(a, b, c)), None],
+            4 => [Some(Self::quadrilateral(a, b, c, d)), None],
+            5 => [Some(Self::quadrilateral(a, b, c, d)), Some(Self::triangle(a, d, e))],
+            _ => [None, None],
+        };
+        pieces.into_iter().flatten().filter(|piece| piece.area > 0.0)
+    }
+
     /// The triangles that it is made of: one or two.
     pub fn triangles(&self) -> impl Iterator<Item = [DVec3; 3]> + use<> {
         let [a, b, c, d] = self.vertices;
@@ -101,6 +156,56 @@ mod tests {
         assert_eq!(p.normal(), DVec3::Z);
         assert!((p.height_of(DVec3::new(9.0, 9.0, -2.0)) + 2.0).abs() < 1e-15);
         assert!((p.diameter() - 20_f64.sqrt()).abs() < 1e-15);
+    }
+
+    /// A trapezoid in the plane z = 0 and a triangle across it.
+    fn shapes() -> [Polygon; 2] {
+        let p = |x, y| DVec3::new(x, y, 0.0);
+        [
+            Polygon::quadrilateral(p(0.0, 0.0), p(4.0, 0.0), p(2.0, 2.0), p(0.0, 2.0)),
+            Polygon::triangle(p(0.0, 0.0), p(3.0, 1.0), p(1.0, 4.0)),
+        ]
+    }
+
+    #[test]
+    fn the_density_integrates_to_the_area_and_the_centroid() {
+        let n = 200;
+        let cells = || {
+            (0..n * n).map(|k| [(0.5 + f64::from(k % n)), (0.5 + f64::from(k / n))].map(|x| x / f64::from(n)))
+        };
+        for shape in shapes() {
+            let mass = |weigh: &dyn Fn(DVec3) -> f64| -> f64 {
+                cells().map(|[s, t]| weigh(shape.point(s, t)) * shape.density(s, t)).sum::<f64>()
+                    / f64::from(n * n)
+            };
+            assert!((mass(&|_| 1.0) / shape.area() - 1.0).abs() < 1e-12);
+            assert!((mass(&|x| x.x) / shape.area() - shape.centroid().x).abs() < 1e-4);
+        }
+    }
+
+    #[test]
+    fn quarters_cover_the_whole() {
+        for shape in shapes() {
+            let quarters = shape.quarters();
+            assert!((quarters.iter().map(Polygon::area).sum::<f64>() - shape.area()).abs() < 1e-14);
+            let moment: DVec3 = quarters.iter().map(|q| q.centroid() * q.area()).sum();
+            assert!((moment / shape.area()).distance(shape.centroid()) < 1e-14);
+            assert!(quarters.iter().all(|q| q.normal() == DVec3::Z));
+        }
+    }
+
+    #[test]
+    fn a_plane_cuts_a_polygon_in_two_that_add_up() {
+        let p = |x, y, z| DVec3::new(x, y, z);
+        for shape in shapes() {
+            for x in [-1.0, 0.5, 1.5, 2.0, 2.5, 9.0] {
+                let plane = Polygon::triangle(p(x, 0.0, 0.0), p(x, 1.0, 0.3), p(x - 0.5, 0.0, 1.0));
+                let back = Polygon::triangle(p(x, 0.0, 0.0), p(x - 0.5, 0.0, 1.0), p(x, 1.0, 0.3));
+                let area = |side: &Polygon| shape.in_front_of(side).map(|piece| piece.area()).sum::<f64>();
+                assert!((area(&plane) + area(&back) - shape.area()).abs() < 1e-14, "at {x}");
+                assert!(shape.in_front_of(&plane).all(|piece| plane.height_of(piece.centroid()) > 0.0));
+            }
+        }
     }
 
     #[test]

@@ -26,6 +26,18 @@ pub trait Coupling: Sync {
     }
 }
 
+impl<C: Coupling> Coupling for &C {
+    fn dim(&self) -> usize {
+        (**self).dim()
+    }
+    fn entry(&self, i: usize, j: usize) -> f64 {
+        (**self).entry(i, j)
+    }
+    fn reciprocity(&self) -> Option<&[f64]> {
+        (**self).reciprocity()
+    }
+}
+
 /// Row i of F, written to `row` (length n).
 pub(crate) fn fill_row(coupling: &impl Coupling, i: usize, row: &mut [f64]) {
     for (j, entry) in row.iter_mut().enumerate() {

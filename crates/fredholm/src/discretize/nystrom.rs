@@ -18,6 +18,11 @@ impl<P: Sync, K: Kernel<P>> Nystrom<K, P> {
         Self { kernel, rule }
     }
 
+    /// The kernel.
+    pub fn kernel(&self) -> &K {
+        &self.kernel
+    }
+
     /// The nodes x_i, where the unknowns u_i are values of φ.
     pub fn nodes(&self) -> &[P] {
         &self.rule.nodes
@@ -38,5 +43,10 @@ impl<P: Sync, K: Kernel<P>> Coupling for Nystrom<K, P> {
 
     fn entry(&self, i: usize, j: usize) -> f64 {
         self.kernel.at(&self.rule.nodes[i], &self.rule.nodes[j]) * self.rule.weights[j]
+    }
+
+    /// w_i K(x_i, x_j) w_j is symmetric when K is: the rule's weights are those of reciprocity.
+    fn reciprocity(&self) -> Option<&[f64]> {
+        self.kernel.is_symmetric().then_some(&self.rule.weights)
     }
 }

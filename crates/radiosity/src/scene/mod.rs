@@ -1,5 +1,4 @@
 //! Room 1: a scene is surfaces with materials, in metres, and perhaps a camera.
-
 //!
 //! [`load`] reads a mesh (`.obj` with its `.mtl`, in metres) or a scene file (`.toml`: meshes, their unit, materials
 //! in place of the meshes' own, a camera, wishes on how to solve). [`cornell_box`] is built in. Surfaces are diffuse

@@ -9,11 +9,14 @@
 
 mod build;
 mod bvh;
+mod count;
 mod facet;
 mod packet;
 mod ray;
 mod shaft;
 mod walls;
+
+pub use count::RayCount;
 
 use crate::polygon::Polygon;
 use bvh::Bvh;
@@ -58,6 +61,11 @@ impl Visibility {
             triangles.into_iter().partition(|&(_, k)| is_wall[k as usize]);
         let occluders = if walls.is_empty() { all } else { Bvh::new(&occluders) };
         Self { frame, facets, occluders, walls: Bvh::new(&walls) }
+    }
+
+    /// Whether any polygon can be between two points of the scene: in an empty convex room none can.
+    pub fn hides_anything(&self) -> bool {
+        !self.occluders.is_empty()
     }
 
     /// Whether no polygon cuts the open segment from s to t, two points of the scene, in metres.

@@ -1,0 +1,79 @@
+//! Σ_j F_ij = 1 in a closed scene: what an enclosure lets escape, and by how much the rows miss 1.
+
+use crate::patches::Patches;
+use crate::visibility::Visibility;
+use fredholm::value::Value;
+use glam::DVec3;
+use rayon::prelude::*;
+use std::f64::consts::TAU;
+
+/// The closure test of a scene's form factors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Closure {
+    /// Light escapes to infinity: row sums need not be 1.
+    Open {
+        /// The part of the sampled rays that meet nothing.
+        escaping: f64,
+    },
+    /// No sampled ray escapes.
+    Closed {
+        /// max |Σ_j F_ij − 1| over the rows checked.
+        defect: f64,
+        /// How many rows were checked: those of patches that see nothing but fronts. A patch under a block that
+        /// stands on it sees the block's inside, whose back sends nothing, and its row is rightly less than 1.
+        rows: usize,
+    },
+}
+
+impl Closure {
+    /// From the sums of some `rows` of F; which rows they are is given with them.
+    pub fn test<V: Value>(patches: &Patches<V>, visibility: &Visibility, rows: &[(usize, f64)]) -> Self {
+        let sights: Vec<Sight> = rows.par_iter().map(|&(i, _)| Sight::from(patches, visibility, i)).collect();
+        let escaped: u32 = sights.iter().map(|sight| sight.escaped).sum();
+        if escaped > 0 {
+            return Self::Open { escaping: f64::from(escaped) / (sights.len() as f64 * f64::from(RAYS)) };
+        }
+        let whole = rows.iter().zip(&sights).filter(|(_, sight)| sight.backs == 0);
+        let defects = whole.map(|((_, sum), _)| (sum - 1.0).abs());
+        let (defect, rows) = defects.fold((0.0_f64, 0), |(worst, n), defect| (worst.max(defect), n + 1));
+        Self::Closed { defect, rows }
+    }
+}
+
+/// Rays from each patch. A leak of a hundredth of the sky is met by half the patches.
+const RAYS: u32 = 64;
+
+/// What the rays from a patch meet that is no front.
+struct Sight {
+    escaped: u32,
+    backs: u32,
+}
+
+impl Sight {
+    fn from<V: Value>(patches: &Patches<V>, visibility: &Visibility, i: usize) -> Self {
+        let patch = &patches.polygons[i];
+        let across = (patch.vertices()[1] - patch.vertices()[0]).normalize();
+        let along = patch.normal().cross(across);
+        let mut sight = Self { escaped: 0, backs: 0 };
+        for k in 0..RAYS {
+            // R₄ would do as well; the fractional parts of the golden ratio's kin spread start and direction.
+            let [s, t, u, v] =
+                [0.8566, 0.7338, 0.6287, 0.5385].map(|step| (0.5 + step * f64::from(k)).fract());
+            let direction = cosine_direction(u, v);
+            let direction = across * direction.x + along * direction.y + patch.normal() * direction.z;
+            match visibility.nearest(patch.point(s, t), direction) {
+                None => sight.escaped += 1,
+                Some(hit) if patches.normal_of(hit.polygon).dot(direction) > 0.0 => sight.backs += 1,
+                Some(_) => (),
+            }
+        }
+        sight
+    }
+}
+
+/// A direction of the upper half space with density cosθ/π, for u, v uniform in [0, 1).
+pub fn cosine_direction(u: f64, v: f64) -> DVec3 {
+    let (sin, cos) = (TAU * v).sin_cos();
+    let radius = u.sqrt();
+    DVec3::new(radius * cos, radius * sin, (1.0 - u).sqrt())
+}

@@ -1,0 +1,341 @@
+//! ∫_{P_i} ∫_{P_j} cosθ cosθ′ / (π r²) dy dx between patches that nothing hides from each other.
+//!
+//! Patches far apart for their size: the product of two four-point Gauss rules. Near ones: Lambert's formula, exact
+//! over one patch, integrated adaptively over the other.
+
+use super::lambert::point_to_polygon;
+use crate::polygon::Polygon;
+use fredholm::quadrature::{Quadrature, gauss_legendre};
+use glam::DVec3;
+use std::f64::consts::PI;
+use wide::f64x4;
+
+/// The unoccluded exchange between any two of a set of patches.
+#[derive(Debug)]
+pub struct Exchange {
+    tolerance: f64,
+    /// Distance over diameter from which the product rule meets the tolerance.
+    far: f64,
+    nodes: Vec<Nodes>,
+    coarse: Quadrature<[f64; 2]>,
+    fine: Quadrature<[f64; 2]>,
+}
+
+/// The four Gauss nodes of a patch, one a lane, and what is asked of it for every pair.
+#[derive(Clone, Debug)]
+struct Nodes {
+    x: f64x4,
+    y: f64x4,
+    z: f64x4,
+    weight: f64x4,
+    diameter: f64,
+}
+
+impl Exchange {
+    /// For these patches, with a relative error of about `tolerance` for each pair.
+    pub fn new(patches: &[Polygon], tolerance: f64) -> Self {
+        Self {
+            tolerance,
+            // The error of the product rule is below 0.4 (diameter/distance)⁴ of the factor head-on (see the test).
+            far: (0.4 / tolerance).powf(0.25),
+            nodes: patches.iter().map(Nodes::new).collect(),
+            coarse: gauss_legendre(2, 0.0, 1.0).squared(),
+            fine: gauss_legendre(3, 0.0, 1.0).squared(),
+        }
+    }
+
+    /// ∫_{P_i} ∫_{P_j} cosθ cosθ′ / (π r²), in m², where both are fronts; 0 where they do not face each other.
+    pub fn between(&self, patches: &[Polygon], i: usize, j: usize) -> f64 {
+        let (a, b) = (&patches[i], &patches[j]);
+        let (side_a, side_b) = (side_of(a, b), side_of(b, a));
+        if side_a == Side::Behind || side_b == Side::Behind {
+            return 0.0;
+        }
+        let (nodes_a, nodes_b) = (&self.nodes[i], &self.nodes[j]);
+        let distance = self.far * nodes_a.diameter.max(nodes_b.diameter);
+        let is_far = a.centroid().distance_squared(b.centroid()) > distance * distance;
+        if is_far && side_a == Side::Before && side_b == Side::Before {
+            product(nodes_a, a.normal(), nodes_b, b.normal())
+        } else {
+            self.near(a, b)
+        }
+    }
+
+    /// Lambert's formula over the larger patch, integrated over the smaller one, where it is in front of the larger.
+    fn near(&self, a: &Polygon, b: &Polygon) -> f64 {
+        let (outer, inner) = if a.area() <= b.area() { (a, b) } else { (b, a) };
+        let sum: f64 = outer
+            .in_front_of(inner)
+            .map(|part| {
+                let first = self.estimate(&self.coarse, &part, inner);
+                let scale = first.max(SMALLEST_FACTOR * part.area());
+                self.adaptive(&part, inner, self.tolerance * scale, DEEPEST)
+            })
+            .sum();
+        sum
+    }
+
+    /// ∫ over `outer` of the factor to `inner`, cut in four until two rules agree.
+    fn adaptive(&self, outer: &Polygon, inner: &Polygon, tolerance: f64, depth: u32) -> f64 {
+        let (coarse, fine) =
+            (self.estimate(&self.coarse, outer, inner), self.estimate(&self.fine, outer, inner));
+        if (coarse - fine).abs() <= tolerance || depth == 0 {
+            return fine;
+        }
+        // Four errors of half the tolerance each, of either sign, make about the tolerance.
+        outer.quarters().iter().map(|part| self.adaptive(part, inner, 0.5 * tolerance, depth - 1)).sum()
+    }
+
+    fn estimate(&self, rule: &Quadrature<[f64; 2]>, outer: &Polygon, inner: &Polygon) -> f64 {
+        let terms = rule.nodes.iter().zip(&rule.weights).map(|(&[s, t], w)| {
+            let (x, density) = node(outer, s, t);
+            w * density * point_to_polygon(x, outer.normal(), inner)
+        });
+        terms.sum()
+    }
+}
+
+/// Cuts in four, at most: at an edge that two patches share, a depth of 12 leaves 1/4096 of it.
+const DEEPEST: u32 = 12;
+
+/// A factor below this is not worth a relative tolerance: it is a ten-thousandth of what a row of 1000 patches has.
+const SMALLEST_FACTOR: f64 = 1e-7;
+
+impl Nodes {
+    fn new(patch: &Polygon) -> Self {
+        let rule = four_points(patch);
+        let points: [(DVec3, f64); 4] = std::array::from_fn(|k| {
+            let [s, t] = rule.nodes[k];
+            let (x, density) = node(patch, s, t);
+            (x, density * rule.weights[k])
+        });
+        let lanes = |part: fn(&(DVec3, f64)) -> f64| f64x4::from(points.each_ref().map(part));
+        Self {
+            x: lanes(|p| p.0.x),
+            y: lanes(|p| p.0.y),
+            z: lanes(|p| p.0.z),
+            weight: lanes(|p| p.1),
+            diameter: patch.diameter(),
+        }
+    }
+}
+
+/// The point of a patch at (s, t) of the unit square and the density dA/(ds dt) there, smooth in s and t:
+/// the square is collapsed onto the first vertex of a triangle.
+fn node(patch: &Polygon, s: f64, t: f64) -> (DVec3, f64) {
+    if patch.vertices().len() == 4 {
+        (patch.point(s, t), patch.density(s, t))
+    } else {
+        (patch.point(s * s, t), 2.0 * s * patch.area())
+    }
+}
+
+/// Four points for [`node`], exact for cubic polynomials on a parallelogram and on a triangle: there the density s
+/// is the weight of Gauss's rule in s (Gauss–Jacobi), and is taken out of the weights again.
+fn four_points(patch: &Polygon) -> Quadrature<[f64; 2]> {
+    let across = gauss_legendre(2, 0.0, 1.0);
+    if patch.vertices().len() == 4 {
+        return across.squared();
+    }
+    let root = 6_f64.sqrt();
+    let along = [((6.0 - root) / 10.0, (9.0 - root) / 36.0), ((6.0 + root) / 10.0, (9.0 + root) / 36.0)];
+    let pairs = || {
+        along.iter().flat_map(|&(s, w)| {
+            across.nodes.iter().zip(&across.weights).map(move |(t, v)| ([s, *t], w / s * v))
+        })
+    };
+    let (nodes, weights) = pairs().unzip();
+    Quadrature { nodes, weights }
+}
+
+/// Σ_p Σ_q w_p w_q K(x_p, y_q), the four nodes of b at a time.
+fn product(a: &Nodes, normal_a: DVec3, b: &Nodes, normal_b: DVec3) -> f64 {
+    let (xs, ys, zs, weights) = (a.x.to_array(), a.y.to_array(), a.z.to_array(), a.weight.to_array());
+    let mut sum = f64x4::ZERO;
+    for p in 0..4 {
+        let (x, y, z) = (b.x - xs[p], b.y - ys[p], b.z - zs[p]);
+        let leaves = x * normal_a.x + y * normal_a.y + z * normal_a.z;
+        let arrives = x * normal_b.x + y * normal_b.y + z * normal_b.z;
+        let square = x * x + y * y + z * z;
+        sum -= b.weight * weights[p] * leaves * arrives / (square * square);
+    }
+    sum.reduce_add() / PI
+}
+
+/// Where a polygon lies in respect to the plane of another.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Before,
+    Behind,
+    Across,
+}
+
+/// Where b lies as seen from a. What is within rounding of the plane counts for either side.
+fn side_of(a: &Polygon, b: &Polygon) -> Side {
+    let origin = a.vertices()[0];
+    let (mut low, mut high, mut reach) = (f64::INFINITY, f64::NEG_INFINITY, 0.0_f64);
+    for v in b.vertices() {
+        let from = *v - origin;
+        let height = from.dot(a.normal());
+        low = low.min(height);
+        high = high.max(height);
+        reach = reach.max(from.length_squared());
+    }
+    let rounding = PLANE * reach.sqrt();
+    match () {
+        () if high <= rounding => Side::Behind,
+        () if low >= -rounding => Side::Before,
+        () => Side::Across,
+    }
+}
+
+/// Part of the distance within which a point counts as on a plane: far above the rounding of a patch's corners
+/// (10⁻¹⁶ of the scene), far below what a factor of 10⁻⁷ would notice.
+const PLANE: f64 = 1e-12;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn p(x: f64, y: f64, z: f64) -> DVec3 {
+        DVec3::new(x, y, z)
+    }
+
+    /// The factor from the first polygon to the second.
+    fn factor(a: &Polygon, b: &Polygon, tolerance: f64) -> f64 {
+        let patches = [a.clone(), b.clone()];
+        Exchange::new(&patches, tolerance).between(&patches, 0, 1) / a.area()
+    }
+
+    #[track_caller]
+    fn assert_close(got: f64, expected: f64, absolute: f64) {
+        assert!((got - expected).abs() <= absolute, "{got} is not {expected}, by {:e}", got - expected);
+    }
+
+    /// [0, a] × [0, b] at height z, facing up or down.
+    fn rectangle(x: [f64; 2], y: [f64; 2], z: f64, up: bool) -> Polygon {
+        let [a, b, c, d] = [p(x[0], y[0], z), p(x[1], y[0], z), p(x[1], y[1], z), p(x[0], y[1], z)];
+        if up { Polygon::quadrilateral(a, b, c, d) } else { Polygon::quadrilateral(a, d, c, b) }
+    }
+
+    #[test]
+    fn parallel_rectangles_have_their_closed_forms() {
+        let cases = [
+            ([1.0, 1.0, 1.0], 0.199824895698),
+            ([2.0, 1.0, 1.0], 0.285875384851),
+            ([1.0, 1.0, 0.1], 0.826994522397),
+            ([10.0, 10.0, 1.0], 0.826994522397),
+        ];
+        for ([a, b, c], expected) in cases {
+            let (floor, ceiling) =
+                (rectangle([0.0, a], [0.0, b], 0.0, true), rectangle([0.0, a], [0.0, b], c, false));
+            for (tolerance, error) in [(1e-4, 1e-4), (1e-7, 1e-7), (1e-11, 1e-11)] {
+                assert_close(factor(&floor, &ceiling, tolerance), expected, error * expected);
+            }
+        }
+        let unit = rectangle([0.0, 1.0], [0.0, 1.0], 0.0, true);
+        let offset = rectangle([1.0, 3.0], [0.5, 1.5], 1.0, false);
+        assert_close(factor(&unit, &offset, 1e-9), 0.085530552987, 1e-10);
+        let beside = rectangle([1.0, 2.0], [0.0, 1.0], 1.0, false);
+        assert_close(factor(&unit, &beside, 1e-9), 0.086050489152, 1e-10);
+    }
+
+    #[test]
+    fn touching_polygons_have_their_closed_forms() {
+        let floor = |w: f64, l: f64| rectangle([0.0, l], [0.0, w], 0.0, true);
+        let wall = |h: f64, l: f64| {
+            Polygon::quadrilateral(p(0.0, 0.0, 0.0), p(0.0, 0.0, h), p(l, 0.0, h), p(l, 0.0, 0.0))
+        };
+        let wall = |h, l| {
+            let w = wall(h, l);
+            assert_eq!(w.normal(), DVec3::Y);
+            w
+        };
+        for (w, h, l, expected) in [
+            (1.0, 1.0, 1.0, 0.200043776075),
+            (1.0, 2.0, 1.0, 0.232852602795),
+            (1.0, 0.5, 3.0, 0.174626978343),
+        ] {
+            assert_close(factor(&floor(w, l), &wall(h, l), 1e-7), expected, 1e-7);
+            assert_close(factor(&floor(w, l), &wall(h, l), 1e-4), expected, 1e-4 * expected);
+        }
+        // Right triangles that share an edge at 90° (corner tetrahedron); faces of the regular tetrahedron.
+        let (x, y, z, o) = (p(1.0, 0.0, 0.0), p(0.0, 1.0, 0.0), p(0.0, 0.0, 1.0), DVec3::ZERO);
+        assert_close(
+            factor(&Polygon::triangle(o, x, y), &Polygon::triangle(o, z, x), 1e-7),
+            0.211324865405,
+            1e-6,
+        );
+        let [a, b, c, d] = [p(1.0, 1.0, 1.0), p(1.0, -1.0, -1.0), p(-1.0, 1.0, -1.0), p(-1.0, -1.0, 1.0)];
+        let inward = |f: Polygon| {
+            assert!(f.height_of(DVec3::ZERO) > 0.0);
+            f
+        };
+        let (first, second) = (inward(Polygon::triangle(a, c, b)), inward(Polygon::triangle(a, b, d)));
+        assert_close(factor(&first, &second, 1e-7), 1.0 / 3.0, 1e-6);
+        // Unit squares hinged at 60°.
+        let (sin, cos) = (60_f64.to_radians().sin(), 60_f64.to_radians().cos());
+        let lid = Polygon::quadrilateral(o, p(0.0, cos, sin), p(1.0, cos, sin), x);
+        assert_close(factor(&floor(1.0, 1.0), &lid, 1e-7), 0.370905321150, 1e-6);
+    }
+
+    #[test]
+    fn a_polygon_across_the_plane_of_another_counts_only_in_front() {
+        let floor = rectangle([0.0, 1.0], [0.0, 1.0], 0.0, true);
+        let wall = |low: f64| {
+            Polygon::quadrilateral(p(0.0, 0.0, low), p(0.0, 0.0, 1.0), p(1.0, 0.0, 1.0), p(1.0, 0.0, low))
+        };
+        assert_close(factor(&floor, &wall(-0.7), 1e-7), 0.200043776075, 1e-6);
+        // Both across each other's planes: a floor that goes on behind the wall.
+        let longer = rectangle([0.0, 1.0], [-2.0, 1.0], 0.0, true);
+        assert_close(3.0 * factor(&longer, &wall(-0.7), 1e-7), 0.200043776075, 1e-6);
+        assert_eq!(factor(&rectangle([0.0, 1.0], [0.0, 1.0], 0.0, false), &wall(0.0), 1e-7), 0.0);
+        assert_eq!(factor(&floor, &rectangle([1.0, 2.0], [0.0, 1.0], 0.0, true), 1e-7), 0.0);
+    }
+
+    #[test]
+    fn far_pairs_keep_the_tolerance_in_any_position() {
+        // Two patches of side 1 at all angles, at the smallest distances that the product rule is used for.
+        let worst = |tolerance: f64, triangle: bool| {
+            let mut worst = 0.0_f64;
+            for k in 0..400 {
+                let angle = |m: f64| (f64::from(k) * m).fract();
+                let a = if triangle {
+                    Polygon::triangle(p(0.0, 0.0, 0.0), p(1.0, 0.0, 0.0), p(0.3, 1.0, 0.0))
+                } else {
+                    rectangle([0.0, 1.0], [0.0, 1.0], 0.0, true)
+                };
+                let (polar, turn) = (1.5 * angle(0.618), std::f64::consts::TAU * angle(0.7548));
+                let direction = p(polar.sin() * turn.cos(), polar.sin() * turn.sin(), polar.cos());
+                let rotation = glam::DQuat::from_euler(
+                    glam::EulerRot::XYZ,
+                    3.0 * angle(0.4) + 1.5,
+                    angle(0.3),
+                    angle(0.9),
+                );
+                let reach = a.diameter() * (0.4 / tolerance).powf(0.25) * 1.001;
+                let move_to = |v: DVec3| a.centroid() + rotation * (v - a.centroid()) + direction * reach;
+                let v: Vec<DVec3> = a.vertices().iter().map(|v| move_to(*v)).collect();
+                let b = if triangle {
+                    Polygon::triangle(v[0], v[1], v[2])
+                } else {
+                    Polygon::quadrilateral(v[0], v[1], v[2], v[3])
+                };
+                let exact = factor(&a, &b, 1e-10);
+                let head_on = b.area() / (PI * reach * reach);
+                worst = worst.max((factor(&a, &b, tolerance) - exact).abs() / head_on);
+            }
+            worst
+        };
+        for tolerance in [1e-3, 1e-4, 1e-6] {
+            for triangle in [false, true] {
+                let error = worst(tolerance, triangle);
+                assert!(error < tolerance, "{error:e} at {tolerance:e}, triangle {triangle}");
+                assert!(
+                    error > 1e-3 * tolerance,
+                    "the constant is far too careful: {error:e} at {tolerance:e}"
+                );
+            }
+        }
+    }
+}
