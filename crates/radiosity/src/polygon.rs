@@ -68,7 +68,7 @@ impl Polygon {
         (0..v.len()).flat_map(|i| (0..i).map(move |j| v[i].distance(v[j]))).fold(0.0, f64::max)
     }
 
-    /// The point at (s, t) ∈ [0,1]²: bilinear on a quadrilateral, the unit square folded onto a triangle
+    /// The point at (s, t) ∈ \[0,1\]²: bilinear on a quadrilateral, the unit square folded onto a triangle
     /// (so that equal areas of the square are equal areas of the triangle).
     pub fn point(&self, s: f64, t: f64) -> DVec3 {
         let [a, b, c, d] = self.vertices;

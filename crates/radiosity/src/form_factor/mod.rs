@@ -90,7 +90,7 @@ impl<'a> FormFactors<'a> {
     }
 
     /// ∫_{P_j} K(s_i, y) dy.
-    fn from_centroid(&self, i: usize, j: usize) -> f64 {
+    fn at_centroid(&self, i: usize, j: usize) -> f64 {
         let (receiver, sender) = (&self.patches[i], &self.patches[j]);
         let whole = lambert::point_to_polygon(receiver.centroid(), receiver.normal(), sender);
         if whole == 0.0 {
@@ -127,7 +127,7 @@ impl Coupling for FormFactors<'_> {
         match &self.test {
             // A planar patch does not see itself.
             _ if i == j => 0.0,
-            Test::Centroid => self.from_centroid(i, j),
+            Test::Centroid => self.at_centroid(i, j),
             Test::Area(exchange) => self.between(exchange, i, j) / self.areas[i],
         }
     }

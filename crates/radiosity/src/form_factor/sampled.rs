@@ -51,11 +51,16 @@ fn sample(
     if visibility.certainly_clear(a, b) {
         return (1.0, 0);
     }
+    if let Some(id) = visibility.blocker(a.centroid(), b.centroid())
+        && visibility.certainly_blocks(id, a, b)
+    {
+        return (0.0, 1);
+    }
     let mut look = Look::default();
     let mut sequence = Sequence::new(pair);
-    let mut cast = 0;
+    let mut cast = 1;
     let mut needed = FIRST;
-    while cast < needed {
+    while cast <= needed {
         let [s, t, u, v] = sequence.next();
         let ((x, density_x), (y, density_y)) = (start(s, t), (b.point(u, v), b.density(u, v)));
         let k = kernel::unoccluded(
@@ -67,10 +72,7 @@ fn sample(
             look.add(k * density_x * density_y, visibility.blocker(x, y));
         }
         cast += 1;
-        if cast == FIRST {
-            if look.one_blocker.is_some_and(|id| visibility.certainly_blocks(id, a, b)) {
-                return (0.0, cast);
-            }
+        if cast == FIRST + 1 {
             needed = look.needed(weight);
         }
     }
