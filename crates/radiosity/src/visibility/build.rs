@@ -16,7 +16,7 @@ const DEEPEST_CHOICE: usize = DEPTH - 24;
 const PARALLEL: usize = 4096;
 
 /// How many triangles are not worth a box of their own.
-const SMALLEST: usize = 2;
+const SMALLEST: usize = 4;
 
 #[derive(Clone, Copy)]
 struct Bounds {
