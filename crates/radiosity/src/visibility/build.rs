@@ -226,7 +226,7 @@ fn eight_subtrees(tree: &Tree) -> Vec<&Tree> {
 /// What fits one packet is opened only where its halves leave much of the box empty.
 fn worth_opening(tree: &Tree) -> bool {
     tree.halves.as_deref().is_some_and(|[first, second]| {
-        tree.range.len() > 8 || first.bounds.area() + second.bounds.area() < 0.8 * tree.bounds.area()
+        tree.range.len() > 8 || first.bounds.area() + second.bounds.area() < 0.65 * tree.bounds.area()
     })
 }
 
