@@ -230,7 +230,7 @@ fn worth_opening(tree: &Tree) -> bool {
     })
 }
 
-/// Triangles × area: how often the subtree's content is met for nothing.
+/// How often rays meet the box; what needs more nodes below goes before what fits one packet.
 fn gain(tree: &Tree) -> f32 {
     tree.bounds.area() * if tree.range.len() > 8 { 4.0 } else { 1.0 }
 }

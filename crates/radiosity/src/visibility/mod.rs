@@ -68,6 +68,7 @@ impl Visibility {
     /// Any polygon that cuts the open segment from s to t.
     ///
     /// Polygons whose plane has the whole scene on one side are left out: they are between no two points of it.
+    /// From points outside, ask [`nearest`](Self::nearest), which leaves out nothing.
     pub fn blocker(&self, s: DVec3, t: DVec3) -> Option<u32> {
         if self.occluders.is_empty() {
             return None;
