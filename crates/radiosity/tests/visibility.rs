@@ -272,7 +272,8 @@ fn what_is_no_segment_and_no_scene_is_answered() {
 fn clear_samples(visibility: &Visibility, a: &Polygon, b: &Polygon, random: &mut Random) -> (usize, usize) {
     let mut counts = (0, 0);
     for k in 0..200 {
-        let edge = |x: f64| if k % 4 == 0 { x.round() } else { x };
+        // Not the very edge: segments along the hull's boundary may touch what the certificate leaves out.
+        let edge = |x: f64| if k % 4 == 0 { x.round().clamp(1e-5, 1.0 - 1e-5) } else { x };
         let mut on = |p: &Polygon| p.point(edge(random.number()), edge(random.number()));
         let (s, t) = (on(a), on(b));
         if a.height_of(t) > 1e-9 && b.height_of(s) > 1e-9 {
@@ -322,8 +323,9 @@ fn a_block_that_stands_on_a_patch_does_not_spoil_its_certificate() {
         .map(|k| rooms::cell(&polygons[1], 4, k % 4, k / 4))
         .filter(|p| p.vertices().iter().all(|&v| side.height_of(v) >= 0.0))
         .collect();
+    // The tall block hides two of the five.
     let certain = in_front.iter().filter(|p| visibility.certainly_clear(&patch, p)).count();
-    assert!(certain > 0 && 2 * certain >= in_front.len(), "{certain} of {}", in_front.len());
+    assert_eq!((certain, in_front.len()), (3, 5));
 }
 
 #[test]

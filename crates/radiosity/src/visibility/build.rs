@@ -16,7 +16,7 @@ const DEEPEST_CHOICE: usize = DEPTH - 24;
 const PARALLEL: usize = 4096;
 
 /// How many triangles are not worth a box of their own.
-const SMALLEST: usize = 2;
+const SMALLEST: usize = 4;
 
 #[derive(Clone, Copy)]
 struct Bounds {
@@ -226,11 +226,11 @@ fn eight_subtrees(tree: &Tree) -> Vec<&Tree> {
 /// What fits one packet is opened only where its halves leave much of the box empty.
 fn worth_opening(tree: &Tree) -> bool {
     tree.halves.as_deref().is_some_and(|[first, second]| {
-        tree.range.len() > 8 || first.bounds.area() + second.bounds.area() < 0.8 * tree.bounds.area()
+        tree.range.len() > 8 || first.bounds.area() + second.bounds.area() < 0.65 * tree.bounds.area()
     })
 }
 
-/// Triangles × area: how often the subtree's content is met for nothing.
+/// How often rays meet the box; what needs more nodes below goes before what fits one packet.
 fn gain(tree: &Tree) -> f32 {
     tree.bounds.area() * if tree.range.len() > 8 { 4.0 } else { 1.0 }
 }

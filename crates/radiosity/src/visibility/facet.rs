@@ -66,6 +66,11 @@ impl Facet {
         Self { vertices, sides, normal, offset }
     }
 
+    /// Four vertices: a triangle repeats its last.
+    pub(super) fn corners(&self) -> &[DVec3; 4] {
+        &self.vertices
+    }
+
     pub(super) fn vertices(&self) -> &[DVec3] {
         &self.vertices[..self.sides]
     }

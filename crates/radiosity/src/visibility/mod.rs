@@ -76,6 +76,7 @@ impl Visibility {
     /// Any polygon that cuts the open segment from s to t.
     ///
     /// Polygons whose plane has the whole scene on one side are left out: they are between no two points of it.
+    /// From points outside, ask [`nearest`](Self::nearest), which leaves out nothing.
     pub fn blocker(&self, s: DVec3, t: DVec3) -> Option<u32> {
         if self.occluders.is_empty() {
             return None;
@@ -102,8 +103,8 @@ impl Visibility {
     ///
     /// The segments fill the convex hull of a and b, so a plane with the hull on one side and a polygon on the other
     /// is the proof. The two must be clipped to lie in front of each other; then what lies behind either, or only
-    /// touches its plane, is out of the way too. Segments within the plane of a or of b, along which no light
-    /// goes, are not spoken of.
+    /// touches its plane, is out of the way too. What only touches the hull does not count, so segments on the
+    /// hull's boundary, which carry no light, are not spoken of.
     pub fn certainly_clear(&self, a: &Polygon, b: &Polygon) -> bool {
         if self.occluders.is_empty() {
             return true;

@@ -40,14 +40,15 @@ impl Packet {
         (0..used.len()).filter(|&k| k == 0 || used[k] != used[k - 1]).map(|k| used[k])
     }
 
-    /// A bit for each triangle that the ray may meet before its end.
+    /// A bit for each triangle that the ray may meet before its end, and for each that it surely meets.
     ///
     /// With a the corner and e, f the edges, the ray s + τd meets the plane at a + ue + vf where
     /// (u, v, τ) = (T·(d×f), d·(T×e), f·(T×e)) / (e·(d×f)), T = s − a. The margins bound all rounding from
     /// above (see [`Ray`]), also that of the determinant's sign: where that is in doubt, so small a
-    /// determinant makes the other three as small, for a true hit.
+    /// determinant makes the other three as small, for a true hit. What passes with the margins against it is
+    /// a hit beyond doubt, farther from the ends than [`ON_PLANE`](super::facet::ON_PLANE).
     #[inline(always)]
-    pub(super) fn candidates(&self, ray: &Ray) -> u32 {
+    pub(super) fn candidates(&self, ray: &Ray) -> Candidates {
         let [e, f] = &self.edges;
         let d = &ray.direction;
         let across = cross(d, f);
@@ -60,11 +61,24 @@ impl Packet {
         let determinant = determinant ^ sign;
         let margin = self.size * ray.side_margin;
         let end_margin = self.size * self.size * ray.end_margin;
-        let inside = (u.fast_min(v) + margin).simd_ge(f32x8::ZERO) & (u + v).simd_le(determinant + margin);
-        let between = (along + end_margin).simd_ge(f32x8::ZERO)
-            & along.simd_le(determinant.mul_add(ray.end, end_margin));
-        (inside & between).to_bitmask()
+        let (least, sum) = (u.fast_min(v), u + v);
+        let end = determinant * ray.end;
+        let possible = (least + margin).simd_ge(f32x8::ZERO)
+            & sum.simd_le(determinant + margin)
+            & (along + end_margin).simd_ge(f32x8::ZERO)
+            & along.simd_le(end + end_margin);
+        let certain = least.simd_gt(margin)
+            & sum.simd_lt(determinant - margin)
+            & along.simd_gt(end_margin)
+            & along.simd_lt(end - end_margin);
+        Candidates { possible: possible.to_bitmask(), certain: certain.to_bitmask() }
     }
+}
+
+/// Which of a packet's triangles a ray meets, a bit for each: what is certain is possible.
+pub(super) struct Candidates {
+    pub(super) possible: u32,
+    pub(super) certain: u32,
 }
 
 fn cross(a: &[f32x8; 3], b: &[f32x8; 3]) -> [f32x8; 3] {

@@ -110,7 +110,12 @@ impl Query for Blocker<'_> {
 
     #[inline(always)]
     fn visit(&mut self, packet: &Packet) -> ControlFlow<()> {
-        for lane in lanes(packet.candidates(&self.ray)) {
+        let candidates = packet.candidates(&self.ray);
+        if let Some(lane) = lanes(candidates.certain).next() {
+            self.found = Some(packet.polygons[lane]);
+            return ControlFlow::Break(());
+        }
+        for lane in lanes(candidates.possible) {
             let polygon = packet.polygons[lane];
             if self.facets[polygon as usize].cut(self.s, self.t).is_some() {
                 self.found = Some(polygon);
@@ -143,7 +148,7 @@ impl Query for Nearest<'_> {
 
     #[inline(always)]
     fn visit(&mut self, packet: &Packet) -> ControlFlow<()> {
-        for lane in lanes(packet.candidates(&self.ray)) {
+        for lane in lanes(packet.candidates(&self.ray).possible) {
             let polygon = packet.polygons[lane];
             let Some(at) = self.facets[polygon as usize].cut(self.s, self.t) else { continue };
             if self.found.is_none_or(|(_, best)| at < best) {

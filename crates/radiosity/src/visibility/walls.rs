@@ -68,3 +68,43 @@ impl Query for Beyond<'_> {
         self.normal[axis] > 0.0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::Visibility;
+    use crate::polygon::Polygon;
+    use glam::DVec3;
+
+    /// The cube [0, 1]³, each wall cut into two triangles, turned so that no coordinate is exact.
+    fn cube() -> Vec<Polygon> {
+        let turn = glam::DQuat::from_euler(glam::EulerRot::XYZ, 0.3, 1.2, -0.8);
+        let corner = |k: usize| turn * DVec3::from_array([0, 1, 2].map(|axis| (k >> axis & 1) as f64));
+        let faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+        faces
+            .iter()
+            .map(|face| face.map(corner))
+            .flat_map(|[a, b, c, d]| [Polygon::triangle(a, b, c), Polygon::triangle(a, c, d)])
+            .collect()
+    }
+
+    #[test]
+    fn a_convex_room_has_no_occluders() {
+        let visibility = Visibility::new(&cube());
+        assert!(visibility.occluders.is_empty() && !visibility.walls.is_empty());
+    }
+
+    #[test]
+    fn a_wall_with_something_behind_it_is_an_occluder() {
+        let mut polygons = cube();
+        let wall = &polygons[0];
+        let behind: Vec<DVec3> =
+            wall.vertices().iter().map(|v| v.lerp(wall.centroid(), 0.9) - 1e-6 * wall.normal()).collect();
+        polygons.push(Polygon::triangle(behind[0], behind[1], behind[2]));
+        let visibility = Visibility::new(&polygons);
+        let mut occluders: Vec<u32> =
+            visibility.occluders.packets.iter().flat_map(|packet| packet.distinct()).collect();
+        occluders.sort_unstable();
+        // What is behind the wall hides nothing itself: all else is in front of it.
+        assert_eq!(occluders, [0, 1]);
+    }
+}
