@@ -4,6 +4,7 @@ use crate::polygon::Polygon;
 use crate::scene::Scene;
 use fredholm::value::Value;
 use glam::{DVec2, DVec3};
+use std::ops::Range;
 
 /// The patches of a scene with their reflectance ρ and emission E, in the order of surfaces and polygons.
 #[derive(Clone, Debug)]
@@ -18,7 +19,18 @@ pub struct Patches<V> {
     pub emission: Vec<V>,
     /// The index of each patch's surface in the scene.
     pub surface: Vec<u32>,
+    /// Strips of neighbouring patches, in the order of the patches, every patch in one.
+    pub strips: Vec<Strip>,
     grids: Vec<Grid>,
+}
+
+/// Up to eight patches side by side in one plane, that together are one convex polygon.
+#[derive(Clone, Debug)]
+pub struct Strip {
+    /// Which patches they are.
+    pub patches: Range<usize>,
+    /// All of them together.
+    pub polygon: Polygon,
 }
 
 /// Patch size that cannot be used.
@@ -57,6 +69,7 @@ impl<V: Value> Patches<V> {
             reflectance: Vec::new(),
             emission: Vec::new(),
             surface: Vec::new(),
+            strips: Vec::new(),
             grids: Vec::with_capacity(input().count()),
         };
         for (index, surface) in scene.surfaces.iter().enumerate() {
@@ -79,6 +92,7 @@ impl<V: Value> Patches<V> {
             whole: polygon.clone(),
         };
         self.polygons.extend(grid.patches());
+        self.strips.extend(grid.strips());
         self.grids.push(grid);
     }
 
@@ -103,16 +117,33 @@ impl<V: Value> Patches<V> {
     }
 
     /// Which patches lie on input polygon number `polygon`.
-    pub fn on_polygon(&self, polygon: u32) -> std::ops::Range<usize> {
+    pub fn on_polygon(&self, polygon: u32) -> Range<usize> {
         let grid = &self.grids[polygon as usize];
         grid.first..grid.first + grid.divisions.count() as usize
     }
 }
 
-/// The patch size, in metres, that cuts the scene into about `count` square patches.
+/// The largest patch size, in metres, that cuts the scene into `count` patches or more, to a thousandth.
+///
+/// Whole numbers of patches fit each polygon, so there are somewhat more of them, and never fewer than polygons.
 pub fn size_for_count<V: Value>(scene: &Scene<V>, count: usize) -> f64 {
-    let area: f64 = scene.surfaces.iter().map(|s| s.area()).sum();
-    (area / count.max(1) as f64).sqrt()
+    let polygons = || scene.surfaces.iter().flat_map(|s| &s.polygons);
+    let patches = |size: f64| -> f64 { polygons().map(|p| Divisions::of(p, size).count()).sum() };
+    let mut high = polygons().map(Polygon::diameter).fold(f64::MIN_POSITIVE, f64::max);
+    if patches(high) >= count as f64 {
+        return high;
+    }
+    let area: f64 = polygons().map(Polygon::area).sum();
+    // Square patches of this size would do if whole numbers of them fitted; patches are no larger than that.
+    let mut low = (area / count as f64).sqrt();
+    while patches(low) < count as f64 {
+        low *= 0.5;
+    }
+    while high > 1.001 * low {
+        let middle = (low * high).sqrt();
+        *(if patches(middle) < count as f64 { &mut high } else { &mut low }) = middle;
+    }
+    low
 }
 
 /// How an input polygon is cut: a quadrilateral in s × t, a triangle into k² similar ones.
@@ -164,10 +195,7 @@ impl Grid {
                     .collect()
             }
             Divisions::Triangle(k) => {
-                let v = self.whole.vertices();
-                let at = |i: usize, j: usize| {
-                    v[0] + (v[1] - v[0]) * (i as f64 / k as f64) + (v[2] - v[0]) * (j as f64 / k as f64)
-                };
+                let at = |i: usize, j: usize| self.lattice_point(i, j, k);
                 let mut patches = Vec::with_capacity(k * k);
                 for j in 0..k {
                     for i in 0..k - j {
@@ -180,6 +208,46 @@ impl Grid {
                 patches
             }
         }
+    }
+
+    /// The rows of patches, cut to eight patches at most.
+    fn strips(&self) -> Vec<Strip> {
+        let mut first = self.first;
+        let mut strip = |corners: [DVec3; 4], patches: usize| {
+            let [a, b, c, d] = corners;
+            let polygon =
+                if c == d { Polygon::triangle(a, b, c) } else { Polygon::quadrilateral(a, b, c, d) };
+            first += patches;
+            Strip { patches: first - patches..first, polygon }
+        };
+        let mut strips = Vec::new();
+        match self.divisions {
+            Divisions::Quadrilateral(ns, nt) => {
+                let at = |i: usize, j: usize| self.whole.point(i as f64 / ns as f64, j as f64 / nt as f64);
+                for (j, i) in (0..nt).flat_map(|j| (0..ns).step_by(8).map(move |i| (j, i))) {
+                    let end = (i + 8).min(ns);
+                    strips.push(strip([at(i, j), at(end, j), at(end, j + 1), at(i, j + 1)], end - i));
+                }
+            }
+            Divisions::Triangle(k) => {
+                let at = |i: usize, j: usize| self.lattice_point(i, j, k);
+                for (j, i) in (0..k).flat_map(|j| (0..k - j).step_by(4).map(move |i| (j, i))) {
+                    // Upright and hanging triangles by turns; the last of a row stands upright.
+                    let end = (i + 4).min(k - j);
+                    let last = end == k - j;
+                    let top = if last { end - 1 } else { end };
+                    let corners = [at(i, j), at(end, j), at(top, j + 1), at(i, j + 1)];
+                    strips.push(strip(corners, 2 * (end - i) - usize::from(last)));
+                }
+            }
+        }
+        strips
+    }
+
+    /// Point (i, j) of the lattice that cuts a triangle's edges in k.
+    fn lattice_point(&self, i: usize, j: usize, k: usize) -> DVec3 {
+        let v = self.whole.vertices();
+        v[0] + (v[1] - v[0]) * (i as f64 / k as f64) + (v[2] - v[0]) * (j as f64 / k as f64)
     }
 
     fn patch_at(&self, point: DVec3) -> usize {
@@ -270,6 +338,28 @@ mod tests {
     }
 
     #[test]
+    fn strips_are_their_patches_together() {
+        for size in [0.2, 0.3, 0.9, 9.0] {
+            let patches = Patches::new(&scene(odd_shapes()), size).unwrap();
+            let mut next = 0;
+            for Strip { patches: range, polygon } in &patches.strips {
+                assert_eq!((range.start, range.len() <= 8), (next, true));
+                next = range.end;
+                let sum: f64 = patches.areas[range.clone()].iter().sum();
+                assert!((polygon.area() - sum).abs() < 1e-13);
+                let vertices = patches.polygons[range.clone()].iter().flat_map(|p| p.vertices().to_vec());
+                let inside = |v: DVec3| {
+                    let corners = polygon.vertices();
+                    let edges = (0..corners.len()).map(|k| (corners[k], corners[(k + 1) % corners.len()]));
+                    edges.map(|(p, q)| (q - p).cross(v - p).dot(polygon.normal())).all(|side| side > -1e-12)
+                };
+                assert!(vertices.into_iter().all(inside));
+            }
+            assert_eq!(next, patches.len());
+        }
+    }
+
+    #[test]
     fn a_point_finds_the_patch_that_it_lies_on() {
         let patches = Patches::new(&scene(odd_shapes()), 0.3).unwrap();
         for k in 0..2 {
@@ -292,9 +382,11 @@ mod tests {
     }
 
     #[test]
-    fn the_size_for_a_count_makes_about_that_many() {
-        let scene = scene(vec![odd_shapes().swap_remove(0)]);
-        let n = Patches::new(&scene, size_for_count(&scene, 1000)).unwrap().len();
-        assert!((900..1500).contains(&n), "{n}");
+    fn the_size_for_a_count_makes_that_many_and_few_more() {
+        let scene = scene(odd_shapes());
+        for (count, most) in [(1, 2), (2, 2), (10, 16), (100, 115), (1000, 1030), (30_000, 30_200)] {
+            let n = Patches::new(&scene, size_for_count(&scene, count)).unwrap().len();
+            assert!((count..=most).contains(&n), "{n} for {count}");
+        }
     }
 }

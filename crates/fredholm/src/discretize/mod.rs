@@ -19,6 +19,11 @@ pub trait Coupling: Sync {
     /// F_ij: what unknown j sends to unknown i.
     fn entry(&self, i: usize, j: usize) -> f64;
 
+    /// F_ij for j = `from` …, written to `row`. The same numbers as [`Self::entry`]'s, perhaps found faster together.
+    fn row(&self, i: usize, from: usize, row: &mut [f64]) {
+        row.iter_mut().enumerate().for_each(|(k, entry)| *entry = self.entry(i, from + k));
+    }
+
     /// Positive weights w with w_i F_ij = w_j F_ji, when F is self-adjoint for the product Σ w_i u_i v_i.
     /// Radiosity calls it reciprocity, with the patches' areas for weights. Assembly then computes half of F.
     fn reciprocity(&self) -> Option<&[f64]> {
@@ -33,20 +38,25 @@ impl<C: Coupling> Coupling for &C {
     fn entry(&self, i: usize, j: usize) -> f64 {
         (**self).entry(i, j)
     }
+    fn row(&self, i: usize, from: usize, row: &mut [f64]) {
+        (**self).row(i, from, row);
+    }
     fn reciprocity(&self) -> Option<&[f64]> {
         (**self).reciprocity()
     }
 }
 
-/// Row i of F, written to `row` (length n).
-pub(crate) fn fill_row(coupling: &impl Coupling, i: usize, row: &mut [f64]) {
-    for (j, entry) in row.iter_mut().enumerate() {
-        *entry = coupling.entry(i, j);
-    }
-}
-
-/// Column j of F, written to `column` (length n) by all cores.
+/// Column j of F, written to `column` (length n) by all cores: with reciprocity it is row j, rescaled.
 pub(crate) fn fill_column(coupling: &impl Coupling, j: usize, column: &mut [f64]) {
-    // 64 entries: some ten microseconds of form factors, a hundred times the cost of handing out the work.
-    column.par_iter_mut().enumerate().with_min_len(64).for_each(|(i, entry)| *entry = coupling.entry(i, j));
+    // 256 entries: some fifty microseconds of form factors, a hundred times the cost of handing out the work.
+    column.par_chunks_mut(256).enumerate().for_each(|(k, part)| {
+        let first = 256 * k;
+        match coupling.reciprocity() {
+            Some(weights) => {
+                coupling.row(j, first, part);
+                part.iter_mut().zip(&weights[first..]).for_each(|(entry, w)| *entry *= weights[j] / w);
+            }
+            None => part.iter_mut().enumerate().for_each(|(i, entry)| *entry = coupling.entry(first + i, j)),
+        }
+    });
 }

@@ -1,7 +1,7 @@
 //! F kept whole, row by row, in single or double precision: n² numbers.
 
 use super::{Columns, Line, Matrix, Rows};
-use crate::discretize::{Coupling, fill_row};
+use crate::discretize::Coupling;
 use rayon::prelude::*;
 
 /// A number as a matrix stores it: `f64`, or `f32` for half the memory.
@@ -72,7 +72,7 @@ impl<T: Entry> Dense<T> {
         rows.try_for_each_init(
             || vec![0.0; coupling.dim()],
             |buffer, (i, row)| {
-                fill_row(coupling, i, buffer);
+                coupling.row(i, 0, buffer);
                 progress(buffer.len());
                 store(buffer, row, i, 0)
             },
@@ -87,8 +87,8 @@ impl<T: Entry> Dense<T> {
     ) -> Result<(), NotFinite> {
         let rows = self.entries.par_chunks_mut(self.dim.max(1)).enumerate();
         rows.with_max_len(1).try_for_each_init(Vec::new, |buffer, (i, row)| {
-            buffer.clear();
-            buffer.extend((i..coupling.dim()).map(|j| coupling.entry(i, j)));
+            buffer.resize(coupling.dim() - i, 0.0);
+            coupling.row(i, i, buffer);
             progress(buffer.len());
             store(buffer, &mut row[i..], i, i)
         })

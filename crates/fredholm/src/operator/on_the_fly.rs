@@ -1,7 +1,7 @@
 //! F not kept at all: each entry is computed when it is asked for. Memory O(n).
 
 use super::{Columns, Line, Matrix, Rows};
-use crate::discretize::{Coupling, fill_column, fill_row};
+use crate::discretize::{Coupling, fill_column};
 
 /// A coupling used as a matrix without storing it.
 #[derive(Clone, Copy, Debug)]
@@ -20,7 +20,7 @@ impl<C: Coupling> Matrix for OnTheFly<C> {
 impl<C: Coupling> Rows for OnTheFly<C> {
     fn row<'a>(&'a self, i: usize, buffer: &'a mut Vec<f64>) -> Line<'a> {
         buffer.resize(self.dim(), 0.0);
-        fill_row(&self.0, i, buffer);
+        self.0.row(i, 0, buffer);
         Line::Full(buffer)
     }
 }

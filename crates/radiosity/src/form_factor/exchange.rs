@@ -210,6 +210,11 @@ fn side_of(a: &Polygon, b: &Polygon) -> Side {
     }
 }
 
+/// Whether some of a may face some of b: neither lies wholly behind the other's plane.
+pub fn may_see(a: &Polygon, b: &Polygon) -> bool {
+    side_of(a, b) != Side::Behind && side_of(b, a) != Side::Behind
+}
+
 /// Part of the distance within which a point counts as on a plane: far above the rounding of a patch's corners
 /// (10⁻¹⁶ of the scene), far below what a factor of 10⁻⁷ would notice.
 const PLANE: f64 = 1e-12;

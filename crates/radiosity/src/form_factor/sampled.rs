@@ -2,81 +2,82 @@
 //!
 //! A row of F adds up factors F_ij of which a visible part p_j is estimated with N_j rays: its variance is
 //! Σ_j F_ij² p_j (1 − p_j) / N_j. With N_j = F_ij p_j (1 − p_j) / ε² that is ε² Σ_j F_ij ≤ ε²: large factors and
-//! penumbrae get many rays, small factors few, and the row sum has a standard error below ε. The points are
-//! low-discrepancy ones, so that the error is mostly smaller.
+//! penumbrae get many rays, small factors few, and the row sum has a standard error below ε. That would be for
+//! independent points; these are low-discrepancy ones, which err less and need fewer.
 
 use crate::kernel::{self, SurfacePoint};
 use crate::polygon::Polygon;
-use crate::visibility::Visibility;
+use crate::visibility::{RayCount, Visibility};
 use glam::DVec3;
 
+/// What two polygons see of each other, as far as it is certain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sight {
+    /// Nothing is between them.
+    Clear,
+    /// One polygon hides all of one from all of the other.
+    Hidden,
+    /// Not known.
+    Unknown,
+}
+
+/// What a and b certainly see of each other, at the cost of one ray at most.
+pub(super) fn sight(visibility: &Visibility, a: &Polygon, b: &Polygon, rays: &RayCount) -> Sight {
+    if visibility.certainly_clear(a, b) {
+        return Sight::Clear;
+    }
+    // A polygon that hides all of it stops the ray between the middles.
+    rays.add(1);
+    match visibility.blocker(a.centroid(), b.centroid()) {
+        Some(id) if visibility.certainly_blocks(id, a, b) => Sight::Hidden,
+        _ => Sight::Unknown,
+    }
+}
+
 /// The rays of a first look, on which the number needed is judged.
-const FIRST: u32 = 16;
+const FIRST: u32 = 8;
+
+/// How many times fewer low-discrepancy points than independent ones make the same error. Row sums of two closed
+/// scenes, of 2 000 and 17 000 patches, had an rms error of 0.27 to 0.39 ε without this factor: 1/0.39² = 6.6.
+const LOW_DISCREPANCY_GAIN: f64 = 4.0;
 
 /// A bound on the work of one pair, at a standard error of 10⁻³ of its factor.
 const MOST: u32 = 1 << 18;
 
-/// The part of patch b visible from the centroid of a, and the rays cast.
+/// The part of patch b that light from a reaches, where the rays start from `start(s, t)`: a point of a and the area
+/// that it stands for.
 ///
-/// `weight` is F/ε²: the number of rays is `weight` p (1 − p) for a visible part p.
-pub(super) fn from_point(
+/// `pair` names the two patches; `weight` is F/ε², so that `weight` p (1 − p) rays do for a visible part p.
+pub(super) fn visible_part(
     visibility: &Visibility,
-    a: &Polygon,
-    b: &Polygon,
+    (a, b): (&Polygon, &Polygon),
     pair: (usize, usize),
     weight: f64,
-) -> (f64, u32) {
-    sample(visibility, a, b, pair, weight, |_, _| (a.centroid(), 1.0))
-}
-
-/// The part of the light exchanged between patches a and b that arrives, and the rays cast; `weight` as above.
-pub(super) fn from_area(
-    visibility: &Visibility,
-    a: &Polygon,
-    b: &Polygon,
-    pair: (usize, usize),
-    weight: f64,
-) -> (f64, u32) {
-    sample(visibility, a, b, pair, weight, |s, t| (a.point(s, t), a.density(s, t)))
-}
-
-fn sample(
-    visibility: &Visibility,
-    a: &Polygon,
-    b: &Polygon,
-    pair: (usize, usize),
-    weight: f64,
+    rays: &RayCount,
     start: impl Fn(f64, f64) -> (DVec3, f64),
-) -> (f64, u32) {
-    if visibility.certainly_clear(a, b) {
-        return (1.0, 0);
-    }
-    if let Some(id) = visibility.blocker(a.centroid(), b.centroid())
-        && visibility.certainly_blocks(id, a, b)
-    {
-        return (0.0, 1);
-    }
+) -> f64 {
     let mut look = Look::default();
     let mut sequence = Sequence::new(pair);
-    let mut cast = 1;
-    let mut needed = FIRST;
-    while cast <= needed {
-        let [s, t, u, v] = sequence.next();
-        let ((x, density_x), (y, density_y)) = (start(s, t), (b.point(u, v), b.density(u, v)));
-        let k = kernel::unoccluded(
-            &SurfacePoint { position: x, normal: a.normal() },
-            &SurfacePoint { position: y, normal: b.normal() },
-        );
-        // An infinite kernel: the two points coincide, where the patches touch. It is one point of many.
-        if k > 0.0 && k.is_finite() {
-            look.add(k * density_x * density_y, visibility.blocker(x, y));
+    let mut draw = |look: &mut Look, points: u32| {
+        for _ in 0..points {
+            let [s, t, u, v] = sequence.next();
+            let (x, density) = start(s, t);
+            let y = b.point(u, v);
+            let k = kernel::unoccluded(
+                &SurfacePoint { position: x, normal: a.normal() },
+                &SurfacePoint { position: y, normal: b.normal() },
+            );
+            // Infinite where the two points coincide, on patches that touch: one point of many.
+            if k > 0.0 && k.is_finite() {
+                look.add(k * density * b.density(u, v), visibility.unoccluded(x, y));
+            }
         }
-        cast += 1;
-        if cast == FIRST + 1 {
-            needed = look.needed(weight);
-        }
-    }
-    (look.visible_part(), cast)
+    };
+    draw(&mut look, FIRST);
+    let needed = look.needed(weight);
+    draw(&mut look, needed - FIRST);
+    rays.add(look.rays);
+    look.visible_part()
 }
 
 /// What the rays have seen.
@@ -86,25 +87,23 @@ struct Look {
     clear_rays: u32,
     all: f64,
     clear: f64,
-    /// The polygon that has stopped every ray so far.
-    one_blocker: Option<u32>,
 }
 
 impl Look {
-    fn add(&mut self, weight: f64, blocker: Option<u32>) {
-        self.one_blocker = if self.rays == 0 || self.one_blocker == blocker { blocker } else { None };
+    fn add(&mut self, weight: f64, clear: bool) {
         self.rays += 1;
         self.all += weight;
-        if blocker.is_none() {
+        if clear {
             self.clear_rays += 1;
             self.clear += weight;
         }
     }
 
-    /// Rays for the error asked for. (k + 1)/(n + 2), Laplace's rule, keeps a part unseen in a few rays from
+    /// Rays for the error asked for. (k + ½)/(n + 1), Jeffreys' estimate, keeps a part unseen in a few rays from
     /// being taken for none.
     fn needed(&self, weight: f64) -> u32 {
-        let p = f64::from(self.clear_rays + 1) / f64::from(self.rays + 2);
+        let weight = weight / LOW_DISCREPANCY_GAIN;
+        let p = (f64::from(self.clear_rays) + 0.5) / (f64::from(self.rays) + 1.0);
         ((weight * p * (1.0 - p)).ceil() as u32).clamp(FIRST, MOST)
     }
 
