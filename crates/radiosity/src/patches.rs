@@ -384,7 +384,7 @@ mod tests {
     #[test]
     fn the_size_for_a_count_makes_that_many_and_few_more() {
         let scene = scene(odd_shapes());
-        for (count, most) in [(1, 2), (2, 2), (10, 16), (100, 115), (1000, 1030), (30_000, 30_200)] {
+        for (count, most) in [(1, 2), (2, 2), (10, 16), (100, 115), (1000, 1040), (30_000, 30_200)] {
             let n = Patches::new(&scene, size_for_count(&scene, count)).unwrap().len();
             assert!((count..=most).contains(&n), "{n} for {count}");
         }
