@@ -3,3 +3,4 @@
 pub mod patches;
 pub mod polygon;
 pub mod scene;
+pub mod visibility;
