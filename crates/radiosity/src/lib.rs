@@ -3,5 +3,7 @@
 pub mod form_factor;
 pub mod patches;
 pub mod polygon;
+pub mod reconstruct;
+pub mod render;
 pub mod scene;
 pub mod visibility;
