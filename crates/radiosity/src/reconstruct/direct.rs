@@ -18,11 +18,15 @@ pub struct Lamps<'a, V> {
 /// thousands of glowing triangles is smooth enough for the gather.
 const MOST_LAMPS: usize = 64;
 
-/// Shadow rays to a lamp that all meet the same fate end the matter: 16 find a corner of a sixteenth.
-const FIRST_SHADOW_RAYS: usize = 16;
+/// Shadow rays that look for a penumbra within a lamp; its corners are looked at too. A straight edge that hides
+/// part of the lamp hides a corner; these are for what is smaller than the lamp.
+const PROBES: usize = 9;
 
-/// Shadow rays in a penumbra. With 32 its grain shows; 128 are twice the work of the gather.
-const PENUMBRA_RAYS: usize = 64;
+/// The corners, in the coordinates of [`Polygon::point`], a thousandth within: on the rim a lamp touches its mounting.
+const CORNERS: [(f64, f64); 4] = [(0.001, 0.001), (0.999, 0.001), (0.999, 0.999), (0.001, 0.999)];
+
+/// Shadow rays in a penumbra. With 32 its grain shows; 256 are more work than the gather.
+const PENUMBRA_RAYS: usize = 80;
 
 impl<'a, V: Value> Lamps<'a, V> {
     /// The lamps of a scene; none when it has more polygons that emit than can be counted one by one.
@@ -35,21 +39,34 @@ impl<'a, V: Value> Lamps<'a, V> {
 
     /// The irradiance from the lamps, in W/m².
     pub fn irradiance(&self, site: &Site) -> V {
+        self.sum(site, |lamp| self.visible_share(site, lamp))
+    }
+
+    /// The irradiance from the lamps, in W/m², as `rays` shadow rays to each find it.
+    pub fn roughly(&self, site: &Site, rays: usize) -> V {
+        self.sum(site, |lamp| self.share_of_rays(site, lamp, lattice(rays, site.rotation)))
+    }
+
+    fn sum(&self, site: &Site, visible_share: impl Fn(&Polygon) -> f64) -> V {
         self.lamps.iter().fold(V::splat(0.0), |sum, (lamp, exitance)| {
             let factor = point_to_polygon(site.point, site.normal, lamp);
-            if factor > 0.0 { sum + *exitance * (factor * self.visible_share(site, lamp)) } else { sum }
+            if factor > 0.0 { sum + *exitance * (factor * visible_share(lamp)) } else { sum }
         })
     }
 
     /// The share of a lamp's light that arrives: few rays where they agree, more in a penumbra.
     fn visible_share(&self, site: &Site, lamp: &Polygon) -> f64 {
-        let share = self.share_of_rays(site, lamp, FIRST_SHADOW_RAYS);
-        if share == 0.0 || share == 1.0 { share } else { self.share_of_rays(site, lamp, PENUMBRA_RAYS) }
+        let probes = CORNERS.into_iter().chain(lattice(PROBES, site.rotation));
+        let share = self.share_of_rays(site, lamp, probes);
+        if share == 0.0 || share == 1.0 {
+            return share;
+        }
+        self.share_of_rays(site, lamp, lattice(PENUMBRA_RAYS, site.rotation))
     }
 
-    fn share_of_rays(&self, site: &Site, lamp: &Polygon, count: usize) -> f64 {
+    fn share_of_rays(&self, site: &Site, lamp: &Polygon, rays: impl Iterator<Item = (f64, f64)>) -> f64 {
         let (mut all, mut arrived) = (0.0, 0.0);
-        for (s, t) in lattice(count, site.rotation) {
+        for (s, t) in rays {
             let source = lamp.point(s, t);
             let weight = kernel(site.point, site.normal, source, lamp.normal());
             all += weight;
@@ -87,8 +104,11 @@ mod tests {
             emission,
             polygons,
         };
-        let surfaces =
-            vec![surface("lamp", 10.0, vec![lamp]), surface("shade", 0.0, blocker.into_iter().collect())];
+        let surfaces = vec![
+            surface("lamp", 10.0, vec![lamp]),
+            surface("floor", 0.0, vec![square(0.0, 5.0)]),
+            surface("shade", 0.0, blocker.into_iter().collect()),
+        ];
         Scene { name: "test".into(), surfaces, camera: None }
     }
 

@@ -16,6 +16,12 @@ impl Rotation {
         let bits = scramble(index as u64);
         Self { s: unit(bits >> 32), t: unit(bits & 0xffff_ffff) }
     }
+
+    /// The rotation where the `index`-th ray from here ends.
+    pub fn next(self, index: usize) -> Self {
+        let along = (index + 1) as f64;
+        Self { s: (self.s + along * GOLDEN).fract(), t: (self.t + along * PLASTIC).fract() }
+    }
 }
 
 /// The finaliser of SplitMix64: every bit of the index changes half of the bits.
@@ -33,6 +39,9 @@ fn unit(bits: u64) -> f64 {
 
 /// The golden section's fractional part: the multiples of no other number are spread more evenly.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// 1/ρ² of the plastic number ρ: multiples that do not follow those of the golden section.
+const PLASTIC: f64 = 0.569_840_290_998_053_2;
 
 /// `count` points of [0,1)².
 pub(crate) fn lattice(count: usize, rotation: Rotation) -> impl Iterator<Item = (f64, f64)> {

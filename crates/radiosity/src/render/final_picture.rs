@@ -59,10 +59,8 @@ fn by_rows(
 
 /// All that the light at a point depends on.
 struct Lighting<'a, V> {
-    lamps: Option<Lamps<'a, V>>,
     gather: Gather<'a, V>,
     surfaces: Vec<&'a Surface<V>>,
-    lift: f64,
 }
 
 /// How far a point is lifted off its surface, relative to the size of the scene: more than the rounding of where
@@ -83,11 +81,10 @@ impl<'a, V: Colour> Lighting<'a, V> {
             Some(_) => radiosity.iter().zip(&patches.emission).map(|(b, e)| *b - *e).collect(),
             None => radiosity.to_vec(),
         };
+        let lift = LIFT * extent(polygons);
         Self {
-            lamps,
-            gather: Gather { polygons, patches, visibility, radiosity, rays: view.gather },
+            gather: Gather { polygons, patches, visibility, radiosity, lamps, lift, rays: view.gather },
             surfaces: scene.surfaces.iter().flat_map(|s| s.polygons.iter().map(move |_| s)).collect(),
-            lift: LIFT * extent(polygons),
         }
     }
 
@@ -95,9 +92,9 @@ impl<'a, V: Colour> Lighting<'a, V> {
     fn of(&self, fragment: &Fragment, pixel: usize) -> Lit {
         let surface = self.surfaces[fragment.shown as usize];
         let normal = self.gather.polygons[fragment.shown as usize].normal();
-        let site = Site { point: fragment.point + normal * self.lift, normal, rotation: Rotation::of(pixel) };
-        let direct = self.lamps.as_ref().map_or(V::splat(0.0), |lamps| lamps.irradiance(&site));
-        // A lamp that the gather counts shows its own light here all the same.
+        let site =
+            Site { point: fragment.point + normal * self.gather.lift, normal, rotation: Rotation::of(pixel) };
+        let direct = self.gather.lamps.as_ref().map_or(V::splat(0.0), |lamps| lamps.irradiance(&site));
         let gathered = self.gather.at(&site);
         let radiance = |exitance: V| exitance.to_rgb() * (1.0 / PI);
         Lit {
