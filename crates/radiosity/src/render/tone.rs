@@ -17,7 +17,7 @@ const ANCHOR_SHARE: f64 = 0.9;
 
 /// Where the anchor is put on the screen's linear scale. At 0.6 the light beside a lamp burns out and coloured walls
 /// bleach; at 0.3 shadows drown.
-const ANCHOR_LEVEL: f64 = 0.5;
+const ANCHOR_LEVEL: f64 = 0.45;
 
 /// Up to here the screen is linear; above, highlights roll off towards 1 and never reach it.
 const SHOULDER: f64 = 0.6;
