@@ -5,6 +5,8 @@ pub mod form_factor;
 pub mod kernel;
 pub mod patches;
 pub mod polygon;
+pub mod reconstruct;
+pub mod render;
 pub mod scene;
 pub mod solve;
 pub mod visibility;

@@ -231,7 +231,12 @@ fn inverse_bilinear(quadrilateral: &Polygon, point: DVec3) -> DVec2 {
         let residual = p - (along * st.x + across * st.y + twist * (st.x * st.y));
         let (ds, dt) = (along + twist * st.y, across + twist * st.x);
         let determinant = ds.perp_dot(dt);
-        st += DVec2::new(residual.perp_dot(dt), ds.perp_dot(residual)) / determinant;
+        let step = DVec2::new(residual.perp_dot(dt), ds.perp_dot(residual)) / determinant;
+        st += step;
+        // A parallelogram has no twist: its first step arrives.
+        if step.length_squared() * twist.length_squared() < 1e-28 * determinant.abs() {
+            break;
+        }
     }
     st
 }
