@@ -107,7 +107,7 @@ fn about(normal: DVec3, (x, y): (DVec3, DVec3), local: DVec3) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::form_factor::point_to_polygon;
+    use crate::form_factor::lambert::point_to_polygon;
     use crate::reconstruct::Rotation;
     use crate::scene::{Scene, Surface};
 
