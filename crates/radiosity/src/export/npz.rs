@@ -66,7 +66,12 @@ impl<W: Write + Seek> Archive<W> {
         let longest = names.clone().map(|name| name.chars().count()).max().unwrap_or(0).max(1);
         let kind: TypeStr = format!("<U{longest}").parse().map_err(io::Error::other)?;
         let length = names.len() as u64;
-        self.array(name, &DType::Plain(kind), &[length], names.map(|name| name.chars().collect::<Vec<char>>()))
+        self.array(
+            name,
+            &DType::Plain(kind),
+            &[length],
+            names.map(|name| name.chars().collect::<Vec<char>>()),
+        )
     }
 
     fn array<T: Serialize>(
