@@ -17,7 +17,7 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Solve the diffuse light of a scene, B = E + ρ ∫ K B, and draw it
-    #[command(after_help = EXAMPLES)]
+    #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
     Radiosity(Box<Radiosity>),
 }
 
