@@ -4,6 +4,8 @@ use anyhow::{Context, Result, anyhow, bail};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::process;
+use std::sync::{Mutex, PoisonError};
 use tempfile::NamedTempFile;
 
 /// A file to be, whose folder is known to take it.
@@ -72,6 +74,22 @@ fn buffered(
     out.flush()
 }
 
+/// The files that have no name of their own yet, or had none once.
+static PARTS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// Lets an interrupt (Ctrl-C) take the unfinished files with it, which nobody would ever find again.
+pub fn clear_on_interrupt() -> Result<()> {
+    let clear = || {
+        for part in PARTS.lock().unwrap_or_else(PoisonError::into_inner).iter() {
+            // Most are finished and gone; a last one that cannot be removed has nobody to be told to.
+            let _ = fs::remove_file(part);
+        }
+        // 128 + SIGINT, as shells have it.
+        process::exit(130);
+    };
+    ctrlc::set_handler(clear).context("cannot listen for interrupts")
+}
+
 /// A nameless file in a folder, with the permissions that any new file has.
 fn temporary(folder: &Path) -> Result<NamedTempFile> {
     fs::metadata(folder).with_context(|| format!("the folder {}", folder.display()))?;
@@ -84,9 +102,11 @@ fn temporary(folder: &Path) -> Result<NamedTempFile> {
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
     // The error itself names a file that nobody asked for.
-    builder
+    let file = builder
         .tempfile_in(folder)
-        .map_err(|error| anyhow!("the folder {} takes no files: {}", folder.display(), error.kind()))
+        .map_err(|error| anyhow!("the folder {} takes no files: {}", folder.display(), error.kind()))?;
+    PARTS.lock().unwrap_or_else(PoisonError::into_inner).push(file.path().to_owned());
+    Ok(file)
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use crate::args::{Bands, Radiosity};
 use crate::frames::Frames;
-use crate::output::Output;
+use crate::output::{Output, clear_on_interrupt};
 use crate::outputs::{Outputs, Report as ReportTo, write_field, write_png};
 use crate::picture::draw;
 use crate::progress::Watcher;
@@ -57,6 +57,7 @@ impl<'a, V: Value> Domain<'a, V> {
 
 /// `fredholm radiosity`.
 pub fn command(args: &Radiosity) -> Result<Ending> {
+    clear_on_interrupt()?;
     if let Some(threads) = args.threads {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         pool.build_global().with_context(|| format!("cannot start {threads} threads"))?;

@@ -168,3 +168,18 @@ fn a_reader_who_goes_away_is_no_error() {
     assert!(child.wait().unwrap().success());
     assert_eq!(names(&folder), ["cornell-box.png"]);
 }
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_leaves_nothing() {
+    let folder = folder("interrupt");
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_fredholm"));
+    command.args(["radiosity", "--accuracy", "1e-5", "-o", "a.png"]).current_dir(&folder);
+    let mut child = command.spawn().unwrap();
+    while names(&folder).is_empty() {
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(names(&folder).is_empty());
+}
