@@ -1,5 +1,7 @@
 //! Whatever is wrong is told in one message, with an exit code, without a panic and without files left behind.
 
+#![allow(clippy::unwrap_used, reason = "in a test a panic is the message, in its helpers too")]
+
 mod run;
 
 use run::{folder, fredholm, names, text};

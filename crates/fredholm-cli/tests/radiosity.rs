@@ -1,5 +1,7 @@
 //! `fredholm radiosity` from scene to files.
 
+#![allow(clippy::unwrap_used, reason = "in a test a panic is the message, in its helpers too")]
+
 mod run;
 
 use run::{folder, fredholm, names, text};
