@@ -58,8 +58,7 @@ impl<V: Value> Patches<V> {
         if !(size > 0.0 && size.is_finite()) {
             return Err(PatchError::Size(size));
         }
-        let input = || scene.surfaces.iter().flat_map(|s| &s.polygons);
-        let count: f64 = input().map(|p| Divisions::of(p, size).count()).sum();
+        let count = count_for_size(scene, size);
         if count > MAX_PATCHES as f64 {
             return Err(PatchError::TooMany { size, count });
         }
@@ -70,7 +69,7 @@ impl<V: Value> Patches<V> {
             emission: Vec::new(),
             surface: Vec::new(),
             strips: Vec::new(),
-            grids: Vec::with_capacity(input().count()),
+            grids: Vec::new(),
         };
         for (index, surface) in scene.surfaces.iter().enumerate() {
             for polygon in &surface.polygons {
@@ -128,7 +127,7 @@ impl<V: Value> Patches<V> {
 /// Whole numbers of patches fit each polygon, so there are somewhat more of them, and never fewer than polygons.
 pub fn size_for_count<V: Value>(scene: &Scene<V>, count: usize) -> f64 {
     let polygons = || scene.surfaces.iter().flat_map(|s| &s.polygons);
-    let patches = |size: f64| -> f64 { polygons().map(|p| Divisions::of(p, size).count()).sum() };
+    let patches = |size: f64| count_for_size(scene, size);
     let mut high = polygons().map(Polygon::diameter).fold(f64::MIN_POSITIVE, f64::max);
     if patches(high) >= count as f64 {
         return high;
@@ -144,6 +143,12 @@ pub fn size_for_count<V: Value>(scene: &Scene<V>, count: usize) -> f64 {
         *(if patches(middle) < count as f64 { &mut high } else { &mut low }) = middle;
     }
     low
+}
+
+/// How many patches a size makes.
+fn count_for_size<V: Value>(scene: &Scene<V>, size: f64) -> f64 {
+    let polygons = scene.surfaces.iter().flat_map(|s| &s.polygons);
+    polygons.map(|p| Divisions::of(p, size).count()).sum()
 }
 
 /// How an input polygon is cut: a quadrilateral in s × t, a triangle into k² similar ones.
@@ -299,7 +304,12 @@ fn inverse_bilinear(quadrilateral: &Polygon, point: DVec3) -> DVec2 {
         let residual = p - (along * st.x + across * st.y + twist * (st.x * st.y));
         let (ds, dt) = (along + twist * st.y, across + twist * st.x);
         let determinant = ds.perp_dot(dt);
-        st += DVec2::new(residual.perp_dot(dt), ds.perp_dot(residual)) / determinant;
+        let step = DVec2::new(residual.perp_dot(dt), ds.perp_dot(residual)) / determinant;
+        st += step;
+        // A parallelogram has no twist: its first step arrives.
+        if step.length_squared() * twist.length_squared() < 1e-28 * determinant.abs() {
+            break;
+        }
     }
     st
 }

@@ -1,0 +1,117 @@
+//! A picture per iteration: the patches as the solver has them.
+
+use crate::args::{Radiosity, Solver};
+use crate::output::Output;
+use crate::outputs::write_png;
+use crate::picture::{map, view};
+use crate::radiosity::Domain;
+use crate::settings::Settings;
+use anyhow::{Context, Result};
+use fredholm::neumann::estimated_rest;
+use fredholm::relax::Relaxation;
+use fredholm::value::{Rgb, Value};
+use radiosity::patches::Patches;
+use radiosity::render::{Colour, Exposure, Picture, Preview};
+use std::f64::consts::PI;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// A folder for frames: made if need be, and taken away again if it was made for nothing.
+#[derive(Debug)]
+pub struct Folder {
+    path: PathBuf,
+    made: bool,
+}
+
+impl Folder {
+    /// Makes sure that files can be written into it.
+    pub fn prepare(path: &Path) -> Result<Self> {
+        let made = !path.exists();
+        fs::create_dir_all(path).with_context(|| format!("cannot make the folder {}", path.display()))?;
+        let folder = Self { path: path.to_owned(), made };
+        folder.frame(1)?;
+        Ok(folder)
+    }
+
+    fn frame(&self, iteration: usize) -> Result<Output> {
+        Output::prepare(&self.path.join(format!("{iteration:05}.png")))
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        if self.made {
+            // Only an empty folder can be removed, which is what is wanted.
+            let _ = fs::remove_dir(&self.path);
+        }
+    }
+}
+
+/// Draws and writes the frames, and keeps account of it.
+pub struct Frames {
+    folder: Folder,
+    every: usize,
+    preview: Preview,
+    exposure: Option<Exposure>,
+    /// The files written.
+    pub files: Vec<PathBuf>,
+    /// The seconds spent before the solver began.
+    pub preparing: f64,
+    /// The seconds spent on drawing and writing while it worked.
+    pub recording: f64,
+}
+
+/// A shot changes little: a frame for each would show nothing move.
+const SHOTS_PER_FRAME: usize = 100;
+
+impl Frames {
+    /// Finds out what each pixel shows, once for all frames.
+    pub fn new<V: Colour>(
+        folder: Folder,
+        args: &Radiosity,
+        settings: &Settings,
+        domain: &Domain<'_, V>,
+    ) -> Self {
+        let start = Instant::now();
+        let usual = if settings.solver == Solver::Southwell { SHOTS_PER_FRAME } else { 1 };
+        let view = view(args, domain);
+        Self {
+            folder,
+            every: args.every.unwrap_or(usual),
+            preview: Preview::new(&view, &domain.polygons, &domain.patches, &domain.visibility),
+            exposure: (!args.false_colour).then(|| exposure(&domain.patches)),
+            files: Vec::new(),
+            preparing: start.elapsed().as_secs_f64(),
+            recording: 0.0,
+        }
+    }
+
+    /// Writes the frame of an iteration, if it is its turn.
+    pub fn record<V: Colour>(&mut self, iteration: usize, relaxation: &dyn Relaxation<V>) -> Result<()> {
+        if !iteration.is_multiple_of(self.every) {
+            return Ok(());
+        }
+        let start = Instant::now();
+        let picture = self.preview.draw(&relaxation.preview());
+        let image = self.exposure.map_or_else(|| map(&picture), |exposure| picture.develop(exposure));
+        self.files.push(write_png(self.folder.frame(iteration)?, &image)?);
+        self.recording += start.elapsed().as_secs_f64();
+        Ok(())
+    }
+}
+
+/// The surfaces that make the exposure are lit by lamps too, and about this many times as bright as the mean.
+const BRIGHT: f64 = 2.0;
+
+/// One exposure for all frames, so that the light is seen to grow, and known before there is any: from the mean of
+/// the reflected light, as the ambient term of progressive radiosity estimates it.
+fn exposure<V: Colour>(patches: &Patches<V>) -> Exposure {
+    let Patches { emission, reflectance, areas, .. } = patches;
+    let irradiance = estimated_rest(emission, reflectance, areas).to_rgb();
+    let total: f64 = areas.iter().sum();
+    let mean = |sum: Rgb, (rho, area): (&V, &f64)| sum + rho.to_rgb() * (area / total);
+    let reflectance = reflectance.iter().zip(areas).fold(Rgb::splat(0.0), mean);
+    let bright = reflectance * irradiance * (BRIGHT / PI);
+    Exposure::automatic(&Picture { width: 1, height: 1, pixels: vec![bright] })
+}

@@ -1,0 +1,112 @@
+//! Which files a run leaves, each prepared before the work begins.
+
+use crate::args::Radiosity;
+use crate::frames::Folder;
+use crate::output::Output;
+use anyhow::{Result, bail};
+use fredholm::value::Value;
+use image::{ImageFormat, RgbImage};
+use radiosity::export::{Field, write_csv, write_npz};
+use std::io::{self, Cursor, Write};
+use std::path::{Path, PathBuf};
+
+/// What was asked for.
+pub struct Outputs {
+    /// The final picture.
+    pub picture: Option<Output>,
+    /// What is known of each patch.
+    pub patches: Option<Output>,
+    /// The numbers of the run.
+    pub report: Option<Report>,
+    /// A picture per iteration.
+    pub frames: Option<Folder>,
+}
+
+/// Where the JSON goes.
+pub enum Report {
+    /// To the standard output, alone.
+    Terminal,
+    /// Into a file.
+    File(Output),
+}
+
+impl Outputs {
+    /// Makes sure that all of them can be written. Without any there is a picture by the scene's name.
+    pub fn prepare(args: &Radiosity, scene: &str) -> Result<Self> {
+        let nothing_asked =
+            args.output.is_none() && args.json.is_none() && args.patches.is_none() && args.frames.is_none();
+        let picture = args.output.clone().or_else(|| nothing_asked.then(|| PathBuf::from(file_name(scene))));
+        let json = args.json.as_deref().filter(|path| *path != Path::new("-"));
+        refuse_twins(&[picture.as_deref(), json, args.patches.as_deref()])?;
+        let prepare = |path: Option<&Path>| path.map(Output::prepare).transpose();
+        Ok(Self {
+            picture: prepare(picture.as_deref())?,
+            patches: prepare(args.patches.as_deref())?,
+            report: match prepare(json)? {
+                Some(output) => Some(Report::File(output)),
+                None => args.json.is_some().then_some(Report::Terminal),
+            },
+            frames: args.frames.as_deref().map(Folder::prepare).transpose()?,
+        })
+    }
+}
+
+fn refuse_twins(paths: &[Option<&Path>]) -> Result<()> {
+    let paths: Vec<&Path> = paths.iter().flatten().copied().collect();
+    match (1..paths.len()).find(|&k| paths[..k].contains(&paths[k])) {
+        Some(k) => bail!("two outputs are to be written to {}; give each its own file", paths[k].display()),
+        None => Ok(()),
+    }
+}
+
+/// A name for the picture of a scene: small letters, digits and hyphens, whatever the scene is called.
+fn file_name(scene: &str) -> String {
+    let stem = [".obj", ".toml"].iter().find_map(|ending| scene.strip_suffix(ending)).unwrap_or(scene);
+    let words: Vec<String> =
+        stem.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).map(str::to_lowercase).collect();
+    // File systems take 255 bytes; nobody reads that far.
+    let name: String = words.join("-").chars().take(60).collect();
+    format!("{}.png", if name.is_empty() { "scene" } else { &name })
+}
+
+/// Writes a picture as PNG.
+pub fn write_png(output: Output, image: &RgbImage) -> Result<PathBuf> {
+    let mut bytes = Cursor::new(Vec::new());
+    image.write_to(&mut bytes, ImageFormat::Png)?;
+    output.write(|out| out.write_all(bytes.get_ref()))
+}
+
+/// Writes the field in the format that the file's name asks for.
+pub fn write_field<V: Value>(output: Output, field: &Field<'_, V>) -> Result<PathBuf> {
+    let is_npz = output.path().extension().is_some_and(|extension| extension.eq_ignore_ascii_case("npz"));
+    match is_npz {
+        true => output.write(|out| write_npz(field, out)),
+        false => output.write(|out| -> io::Result<()> { write_csv(field, out) }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_picture_has_a_safe_name() {
+        for (scene, name) in [
+            ("Cornell box", "cornell-box.png"),
+            ("room.obj", "room.png"),
+            ("../../etc/passwd", "etc-passwd.png"),
+            ("Büro: 2. Stock", "büro-2-stock.png"),
+            ("…", "scene.png"),
+        ] {
+            assert_eq!(file_name(scene), name);
+        }
+        assert!(file_name(&"x".repeat(999)).len() < 70);
+    }
+
+    #[test]
+    fn two_outputs_need_two_files() {
+        let (a, b) = (Some(Path::new("a")), Some(Path::new("b")));
+        assert!(refuse_twins(&[a, None, b]).is_ok());
+        assert!(refuse_twins(&[a, b, a]).is_err());
+    }
+}

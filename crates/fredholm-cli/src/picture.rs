@@ -1,0 +1,39 @@
+//! The picture of the solution.
+
+use crate::args::Radiosity;
+use crate::progress::rows;
+use crate::radiosity::Domain;
+use image::RgbImage;
+use radiosity::render::{Colour, Exposure, Picture, Scale, View, false_colour, final_picture};
+use radiosity::scene::Camera;
+
+/// What the map shows; its letters are in Latin-1.
+const TITLE: &str = "radiosity, W/m²";
+
+/// Where the scene is looked at from, and how finely.
+pub fn view<V>(args: &Radiosity, domain: &Domain<'_, V>) -> View {
+    let automatic = || Camera::automatic(&domain.polygons, &domain.visibility);
+    View {
+        camera: domain.scene.camera.unwrap_or_else(automatic),
+        width: args.size.width,
+        height: args.size.height,
+        samples: args.samples,
+        gather: args.gather,
+    }
+}
+
+/// The final picture, as a photograph or as a map of numbers.
+pub fn draw<V: Colour>(args: &Radiosity, domain: &Domain<'_, V>, radiosity: &[V]) -> RgbImage {
+    let view = view(args, domain);
+    let bar = rows(view.height);
+    let row = |done: usize| bar.set_position(done as u64);
+    let Domain { scene, patches, visibility, .. } = domain;
+    let picture = final_picture(&view, scene, patches, visibility, radiosity, &row);
+    bar.finish_and_clear();
+    if args.false_colour { map(&picture) } else { picture.develop(Exposure::automatic(&picture)) }
+}
+
+/// The picture in false colours, on a scale of its own.
+pub fn map(picture: &Picture) -> RgbImage {
+    false_colour(picture, &Scale::automatic(picture), TITLE)
+}

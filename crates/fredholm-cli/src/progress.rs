@@ -1,0 +1,82 @@
+//! How far the work is, on the terminal, and the frames on the way; silent where nobody looks.
+
+use crate::args::{Method, name};
+use crate::frames::Frames;
+use crate::report::Seconds;
+use crate::settings::Settings;
+use anyhow::Result;
+use fredholm::relax::Relaxation;
+use fredholm::value::Value;
+use indicatif::{ProgressBar, ProgressStyle};
+use radiosity::render::Colour;
+use radiosity::solve::{Observer, Solution};
+use std::path::PathBuf;
+
+/// Steps of the bar of a relaxation, from the first residual to the last on a logarithmic scale.
+const STEPS: f64 = 1000.0;
+
+/// A bar on the standard error, when that is a terminal.
+fn bar(title: &'static str, length: u64) -> ProgressBar {
+    let style = ProgressStyle::with_template("{prefix:>13} {wide_bar} {percent:>3} % {msg}")
+        .unwrap_or_else(|_| ProgressStyle::default_bar());
+    ProgressBar::new(length).with_style(style).with_prefix(title)
+}
+
+/// The bar of a picture.
+pub fn rows(height: usize) -> ProgressBar {
+    bar("picture", height as u64)
+}
+
+/// Watches the solver: moves its bars and records its frames.
+pub struct Watcher {
+    assembly: ProgressBar,
+    relaxation: ProgressBar,
+    first: Option<f64>,
+    frames: Option<Frames>,
+    failed: Option<anyhow::Error>,
+}
+
+impl Watcher {
+    /// A watcher over so many patches.
+    pub fn new(settings: &Settings, patches: usize, frames: Option<Frames>) -> Self {
+        let n = patches as u64;
+        // Reciprocity, A_i F_ij = A_j F_ji, halves the work where patches are tested as wholes or both as points.
+        let entries = if settings.method == Method::Collocation { n * n } else { n * (n + 1) / 2 };
+        let relaxation = bar("relaxation", STEPS as u64).with_message(name(&settings.solver));
+        Self { assembly: bar("form factors", entries), relaxation, first: None, frames, failed: None }
+    }
+
+    /// The files of the frames, and the time of what was watched.
+    pub fn finish<V>(self, solution: &Solution<V>, seconds: &mut Seconds) -> Result<Vec<PathBuf>> {
+        self.assembly.finish_and_clear();
+        self.relaxation.finish_and_clear();
+        if let Some(error) = self.failed {
+            return Err(error);
+        }
+        seconds.form_factors = solution.assembly_seconds;
+        seconds.solve = solution.solve_seconds;
+        let Some(frames) = self.frames else { return Ok(Vec::new()) };
+        seconds.frames = frames.preparing + frames.recording;
+        seconds.solve -= frames.recording;
+        Ok(frames.files)
+    }
+}
+
+impl<V: Colour + Value> Observer<V> for Watcher {
+    fn assembled(&self, entries: usize) {
+        self.assembly.inc(entries as u64);
+    }
+
+    fn relaxed(&mut self, iteration: usize, norm: f64, target: f64, relaxation: &dyn Relaxation<V>) -> bool {
+        if !self.relaxation.is_hidden() {
+            self.assembly.finish_and_clear();
+            let first = *self.first.get_or_insert(norm);
+            let done = if norm > target { (first / norm).ln() / (first / target).ln() } else { 1.0 };
+            self.relaxation.set_position((STEPS * done.clamp(0.0, 1.0)) as u64);
+            self.relaxation.set_message(format!("iteration {iteration}, residual {norm:.1e} W/m²"));
+        }
+        let Some(frames) = &mut self.frames else { return true };
+        self.failed = frames.record(iteration, relaxation).err();
+        self.failed.is_none()
+    }
+}

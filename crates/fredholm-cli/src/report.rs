@@ -1,0 +1,196 @@
+//! The numbers of a run: what `--json` writes and the table shows.
+
+use crate::args::name;
+use crate::memory;
+use crate::radiosity::Domain;
+use crate::settings::Settings;
+use fredholm::relax::Outcome;
+use fredholm::value::Value;
+use radiosity::closure::Closure;
+use radiosity::patches::Patches;
+use radiosity::solve::Solution;
+use serde::Serialize;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Seconds of each stage.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Seconds {
+    /// Reading the scene.
+    pub load: f64,
+    /// Cutting it into patches.
+    pub patches: f64,
+    /// Preparing the rays.
+    pub visibility: f64,
+    /// Computing the form factors that are stored.
+    pub form_factors: f64,
+    /// Solving, without the frames.
+    pub solve: f64,
+    /// Drawing and writing the frames.
+    pub frames: f64,
+    /// Drawing the final picture.
+    pub picture: f64,
+    /// Writing the other files, but for the JSON.
+    pub write: f64,
+    /// All of it.
+    pub total: f64,
+}
+
+/// Does some work and adds its time to a stage.
+pub fn timed<T>(seconds: &mut f64, work: impl FnOnce() -> T) -> T {
+    let start = Instant::now();
+    let result = work();
+    *seconds += start.elapsed().as_secs_f64();
+    result
+}
+
+/// The numbers of a run, in the order of the JSON.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// What the scene is called.
+    pub scene: String,
+    /// How many patches.
+    pub patches: usize,
+    /// The longest that their edges may be, in metres.
+    pub patch_size: f64,
+    /// The discretisation.
+    pub method: String,
+    /// The solver.
+    pub solver: String,
+    /// `converged` or `out of iterations`.
+    pub outcome: &'static str,
+    /// Iterations made.
+    pub iterations: usize,
+    /// ‖E + ρ ⊙ (F u) − u‖∞ of the last u.
+    pub residual: f64,
+    /// The residual that was asked for.
+    pub target: f64,
+    /// Bound of max |B − B̃|, the error that the solver left.
+    pub error_bound: Option<f64>,
+    /// ‖ρF‖∞, or its bound.
+    pub norm: f64,
+    /// max |Σ_j F_ij − 1| over the rows checked.
+    pub closure_defect: Option<f64>,
+    /// How many rows were checked.
+    pub closure_rows: Option<usize>,
+    /// The share of the light that meets nothing; none in a closed scene.
+    pub escaping: Option<f64>,
+    /// Form factors computed.
+    pub form_factors: u64,
+    /// Rays cast for them.
+    pub rays: u64,
+    /// Where the time went.
+    pub seconds: Seconds,
+    /// The most memory used at once.
+    pub peak_memory_bytes: Option<u64>,
+    /// What the numbers are in.
+    pub units: Units,
+    /// Means over each surface.
+    pub surfaces: Vec<Surface>,
+    /// The files written.
+    pub files: Vec<PathBuf>,
+}
+
+/// The units of a report.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Units {
+    length: &'static str,
+    area: &'static str,
+    radiosity: &'static str,
+    irradiance: &'static str,
+    emission: &'static str,
+    residual: &'static str,
+    error_bound: &'static str,
+}
+
+const UNITS: Units = Units {
+    length: "m",
+    area: "m²",
+    radiosity: "W/m²",
+    irradiance: "W/m²",
+    emission: "W/m²",
+    residual: "W/m²",
+    error_bound: "W/m²",
+};
+
+/// A surface of the scene: means over its whole area, by channel.
+#[derive(Clone, Debug, Serialize)]
+pub struct Surface {
+    name: String,
+    area: f64,
+    mean_radiosity: Vec<f64>,
+    mean_irradiance: Vec<f64>,
+    emission: Vec<f64>,
+}
+
+impl Report {
+    /// The numbers of a solved scene.
+    pub fn new<V: Value>(
+        domain: &Domain<'_, V>,
+        settings: &Settings,
+        solution: &Solution<V>,
+        seconds: Seconds,
+        files: Vec<PathBuf>,
+    ) -> Self {
+        let options = settings.options(domain.patches.len());
+        let brightest = fredholm::value::max_norm(&domain.patches.emission);
+        let (closure_defect, closure_rows, escaping) = match solution.closure {
+            Closure::Open { escaping } => (None, None, Some(escaping)),
+            Closure::Closed { rows: 0, .. } => (None, Some(0), None),
+            Closure::Closed { defect, rows } => (Some(defect), Some(rows), None),
+        };
+        let converged = solution.report.outcome == Outcome::Converged;
+        Self {
+            scene: domain.scene.name.clone(),
+            patches: domain.patches.len(),
+            patch_size: settings.size(domain.scene),
+            method: name(&settings.method),
+            solver: name(&settings.solver),
+            outcome: if converged { "converged" } else { "out of iterations" },
+            iterations: solution.report.residuals.len(),
+            residual: solution.report.residual,
+            target: options.tolerance * brightest,
+            error_bound: solution.error_bound,
+            norm: solution.norm,
+            closure_defect,
+            closure_rows,
+            escaping,
+            form_factors: solution.form_factors,
+            rays: solution.rays,
+            seconds,
+            peak_memory_bytes: memory::peak(),
+            units: UNITS,
+            surfaces: surfaces(domain, solution),
+            files,
+        }
+    }
+}
+
+fn surfaces<V: Value>(domain: &Domain<'_, V>, solution: &Solution<V>) -> Vec<Surface> {
+    let radiosity = totals(domain, &solution.radiosity);
+    let irradiance = totals(domain, &solution.irradiance);
+    let means = radiosity.into_iter().zip(irradiance).zip(&domain.scene.surfaces);
+    means
+        .map(|((radiosity, irradiance), surface)| {
+            let area = surface.area();
+            let mean = |total: V| (total * (1.0 / area)).channels().to_vec();
+            Surface {
+                name: surface.name.clone(),
+                area,
+                mean_radiosity: mean(radiosity),
+                mean_irradiance: mean(irradiance),
+                emission: surface.emission.channels().to_vec(),
+            }
+        })
+        .collect()
+}
+
+/// ∫ over each surface of what is constant on each patch.
+fn totals<V: Value>(domain: &Domain<'_, V>, values: &[V]) -> Vec<V> {
+    let mut totals = vec![V::splat(0.0); domain.scene.surfaces.len()];
+    let Patches { areas, surface, .. } = &domain.patches;
+    for ((value, area), &surface) in values.iter().zip(areas).zip(surface) {
+        totals[surface as usize] += *value * *area;
+    }
+    totals
+}

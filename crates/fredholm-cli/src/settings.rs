@@ -1,0 +1,89 @@
+//! How to solve: the command line's word before the scene file's, the scene file's before the default.
+
+use crate::args::{Method, Radiosity, Solver, name};
+use crate::memory;
+use anyhow::{Result, bail};
+use clap::ValueEnum;
+use fredholm::value::Value;
+use radiosity::patches::size_for_count;
+use radiosity::scene::{Scene, SolveOptions};
+use radiosity::solve::Options;
+use std::path::Path;
+
+/// Patches when nobody says how many: a few seconds of work, and corners without visible steps.
+const PATCHES: usize = 5000;
+
+/// Sweeps over all patches; whatever converges in use needs far fewer.
+const SWEEPS: usize = 1000;
+
+/// What was decided.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// The discretisation.
+    pub method: Method,
+    /// The solver.
+    pub solver: Solver,
+    /// The largest side of a patch, in metres; `None` for a number of patches.
+    pub patch_size: Option<f64>,
+    /// About how many patches, where their size is not given.
+    pub patch_count: usize,
+    accuracy: f64,
+    tolerance: f64,
+    iterations: Option<usize>,
+    ambient: bool,
+}
+
+impl Settings {
+    /// What the command line and the scene file say together; `file` is named where its words are wrong.
+    pub fn new(args: &Radiosity, wishes: &SolveOptions, file: &Path) -> Result<Self> {
+        let method = wish("method", wishes.method.as_deref(), file)?;
+        let solver = wish("solver", wishes.solver.as_deref(), file)?;
+        let size = args.patch_size.or(wishes.patch_size.filter(|_| args.patch_count.is_none()));
+        let settings = Self {
+            method: args.method.or(method).unwrap_or(Method::Galerkin),
+            solver: args.solver.or(solver).unwrap_or(Solver::GaussSeidel),
+            patch_size: size,
+            patch_count: args.patch_count.unwrap_or(PATCHES),
+            accuracy: args.accuracy.or(wishes.accuracy).unwrap_or(1e-3),
+            tolerance: args.tolerance.or(wishes.tolerance).unwrap_or(1e-6),
+            iterations: args.iterations,
+            ambient: args.ambient,
+        };
+        if settings.ambient && settings.solver != Solver::Southwell {
+            bail!(
+                "--ambient estimates the light that is still to be shot; the {} solver does not shoot, southwell does",
+                name(&settings.solver)
+            );
+        }
+        Ok(settings)
+    }
+
+    /// The size of a patch, in metres.
+    pub fn size<V: Value>(&self, scene: &Scene<V>) -> f64 {
+        self.patch_size.unwrap_or_else(|| size_for_count(scene, self.patch_count))
+    }
+
+    /// What the solver is told, for so many patches.
+    pub fn options(&self, patches: usize) -> Options {
+        let sweep = if self.solver == Solver::Southwell { patches } else { 1 };
+        Options {
+            method: self.method.into(),
+            solver: self.solver.into(),
+            accuracy: self.accuracy,
+            tolerance: self.tolerance,
+            iterations: self.iterations.unwrap_or(SWEEPS * sweep),
+            ambient: self.ambient,
+            memory: memory::limit(),
+        }
+    }
+}
+
+/// The choice that a scene file names.
+fn wish<T: ValueEnum>(key: &str, wish: Option<&str>, file: &Path) -> Result<Option<T>> {
+    let Some(wish) = wish else { return Ok(None) };
+    let Ok(choice) = T::from_str(wish, false) else {
+        let known: Vec<String> = T::value_variants().iter().map(name).collect();
+        bail!("{}: [solve] {key} = \"{wish}\" is unknown; write one of {}", file.display(), known.join(", "));
+    };
+    Ok(Some(choice))
+}

@@ -1,0 +1,120 @@
+//! The numbers of a run as people read them.
+
+use crate::report::{Report, Seconds};
+use std::fmt::Write;
+
+/// The table, a line per matter.
+pub fn table(report: &Report) -> String {
+    let mut text = format!("{}: {} with {}\n\n", report.scene, report.method, report.solver);
+    for (name, value) in lines(report) {
+        // Writing into a string does not fail.
+        let _ = writeln!(text, "  {name:<14}{value}");
+    }
+    text
+}
+
+fn lines(report: &Report) -> Vec<(&'static str, String)> {
+    let mut lines = vec![
+        ("patches", format!("{}, edges up to {:.3} m", grouped(report.patches as u64), report.patch_size)),
+        ("form factors", grouped(report.form_factors)),
+        ("rays", grouped(report.rays)),
+        ("iterations", iterations(report)),
+        ("residual", residual(report)),
+        ("error bound", error_bound(report)),
+        ("closure", closure(report)),
+    ];
+    if let Some(bytes) = report.peak_memory_bytes {
+        lines.push(("memory", format!("{} MB at most", grouped(bytes >> 20))));
+    }
+    lines.push(("time", time(&report.seconds)));
+    lines.push(("written", written(report)));
+    lines
+}
+
+fn iterations(report: &Report) -> String {
+    let meaning = match report.solver.as_str() {
+        "successive" => ", each one bounce of light",
+        "southwell" => ", each one shot",
+        _ => "",
+    };
+    format!("{}{meaning}", grouped(report.iterations as u64))
+}
+
+fn residual(report: &Report) -> String {
+    let Report { residual, target, .. } = report;
+    if report.outcome == "converged" {
+        format!("{residual:.1e} W/m², of {target:.1e} allowed")
+    } else {
+        format!("{residual:.1e} W/m²: NOT CONVERGED to {target:.1e}; allow more --iterations")
+    }
+}
+
+fn error_bound(report: &Report) -> String {
+    match report.error_bound {
+        Some(bound) => format!("{bound:.1e} W/m² from the solver, since ‖ρF‖ ≤ {:.3}", report.norm),
+        None => format!("none, since ‖ρF‖ = {:.3} is not less than 1", report.norm),
+    }
+}
+
+fn closure(report: &Report) -> String {
+    match (report.escaping, report.closure_defect) {
+        (Some(share), _) => format!("open: {:.1} % of the sight lines leave the scene", 100.0 * share),
+        (None, Some(defect)) => {
+            let rows = grouped(report.closure_rows.unwrap_or(0) as u64);
+            format!("form factors add up to 1 within {defect:.1e}, in {rows} rows")
+        }
+        (None, None) => "closed, but every patch sees a back: no row to check".to_owned(),
+    }
+}
+
+/// The stages that took any time worth a word, and their sum.
+fn time(seconds: &Seconds) -> String {
+    let stages = [
+        ("load", seconds.load),
+        ("patches", seconds.patches),
+        ("visibility", seconds.visibility),
+        ("form factors", seconds.form_factors),
+        ("solve", seconds.solve),
+        ("frames", seconds.frames),
+        ("picture", seconds.picture),
+        ("write", seconds.write),
+    ];
+    let stages = stages.iter().filter(|(_, seconds)| *seconds >= 0.005);
+    let words: Vec<String> = stages.map(|(stage, seconds)| format!("{stage} {seconds:.2}")).collect();
+    format!("{:.2} s: {}", seconds.total, words.join(", "))
+}
+
+/// The files, of which frames are many.
+fn written(report: &Report) -> String {
+    let names: Vec<String> = report.files.iter().map(|file| file.display().to_string()).collect();
+    match names.as_slice() {
+        [] => "no file".to_owned(),
+        [first, .., last] if names.len() > 6 => format!("{} files: {first} … {last}", names.len()),
+        _ => names.join(", "),
+    }
+}
+
+/// Digits in groups of three.
+fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (k, digit) in digits.chars().enumerate() {
+        if k > 0 && (digits.len() - k).is_multiple_of(3) {
+            text.push(' ');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_stand_in_groups_of_three() {
+        for (number, text) in [(0, "0"), (999, "999"), (1000, "1 000"), (12_345_678, "12 345 678")] {
+            assert_eq!(grouped(number), text);
+        }
+    }
+}

@@ -1,0 +1,34 @@
+//! The one place that writes to the terminal; a reader who has gone away is no error.
+
+use std::io::{self, ErrorKind, Write};
+
+/// Where people and programs read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stream {
+    /// What was asked for.
+    Out,
+    /// Everything else.
+    Err,
+}
+
+/// Writes a text. A broken pipe ends the writing, not the work: `fredholm … | head` still gets its picture.
+pub fn say(stream: Stream, text: &str) -> io::Result<()> {
+    let written = match stream {
+        Stream::Out => write_all(io::stdout().lock(), text),
+        Stream::Err => write_all(io::stderr().lock(), text),
+    };
+    match written {
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        other => other,
+    }
+}
+
+/// Tells what went wrong, in one message.
+pub fn complain(error: &anyhow::Error) -> io::Result<()> {
+    say(Stream::Err, &format!("error: {error:#}\n"))
+}
+
+fn write_all(mut out: impl Write, text: &str) -> io::Result<()> {
+    out.write_all(text.as_bytes())?;
+    out.flush()
+}

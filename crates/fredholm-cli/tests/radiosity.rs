@@ -1,0 +1,187 @@
+//! `fredholm radiosity` from scene to files.
+
+#![allow(clippy::unwrap_used, reason = "in a test a panic is the message, in its helpers too")]
+
+mod run;
+
+use run::{folder, fredholm, names, text};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+/// Small pictures, few rays: what is tested is which files there are and what they say.
+const QUICK: &str = "radiosity --patch-count 200 --size 32x32 --samples 1 --gather 4";
+
+fn json(bytes: &[u8]) -> Value {
+    serde_json::from_slice(bytes).unwrap()
+}
+
+fn furnace() -> String {
+    format!("{}/../../scenes/furnace/furnace.toml", env!("CARGO_MANIFEST_DIR"))
+}
+
+#[test]
+fn without_options_there_is_a_picture_by_the_scenes_name_and_a_table() {
+    let folder = folder("picture");
+    let output = fredholm(&folder, QUICK);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert_eq!(names(&folder), ["cornell-box.png"]);
+    assert!(fs::read(folder.join("cornell-box.png")).unwrap().starts_with(b"\x89PNG"));
+    let table = text(&output.stdout);
+    for line in
+        ["patches", "rays", "residual", "error bound", "closure", "time", "written       cornell-box.png"]
+    {
+        assert!(table.contains(line), "no `{line}` in: {table}");
+    }
+    assert_eq!(text(&output.stderr), "", "a bar where nobody looks");
+}
+
+#[test]
+fn the_json_alone_is_on_the_standard_output() {
+    let folder = folder("json");
+    let output = fredholm(&folder, &format!("{QUICK} --json -"));
+    let report = json(&output.stdout);
+    assert!(names(&folder).is_empty(), "a picture that nobody asked for");
+    assert!(text(&output.stderr).contains("error bound"), "the table is not on the standard error");
+    assert_eq!(
+        (report["method"].as_str(), report["solver"].as_str()),
+        (Some("galerkin"), Some("gauss-seidel"))
+    );
+    for key in ["patches", "iterations", "residual", "error_bound", "rays", "peak_memory_bytes"] {
+        assert!(report[key].as_f64().is_some_and(|number| number > 0.0), "{key}: {}", report[key]);
+    }
+    assert!(report["closure_defect"].is_null(), "the Cornell box has no front");
+    for stage in ["load", "patches", "visibility", "form_factors", "solve", "picture", "total"] {
+        assert!(report["seconds"][stage].is_number(), "{stage}");
+    }
+    let surfaces: Vec<_> =
+        report["surfaces"].as_array().unwrap().iter().map(|s| s["name"].as_str().unwrap()).collect();
+    assert_eq!((surfaces.len(), surfaces[0], surfaces[15]), (16, "floor", "light"));
+}
+
+#[test]
+fn the_furnace_has_its_answer_by_every_method_and_solver() {
+    let folder = folder("furnace");
+    let run = |words: &str| {
+        let output =
+            fredholm(&folder, &format!("radiosity {} --patch-count 100 --json - {words}", furnace()));
+        assert!(output.status.success(), "{words}: {}", text(&output.stderr));
+        json(&output.stdout)
+    };
+    for solver in ["gauss-seidel", "southwell", "jacobi", "successive", "gmres", "direct"] {
+        let report = run(&format!("--solver {solver}"));
+        assert!(report["closure_defect"].is_null() == report["closure_rows"].is_null());
+        for surface in report["surfaces"].as_array().unwrap() {
+            for (channel, expected) in [2.0, 4.0 / 3.0, 4.0].into_iter().enumerate() {
+                let mean = |key: &str| surface[key][channel].as_f64().unwrap();
+                assert!((mean("mean_radiosity") / expected - 1.0).abs() < 1e-4, "{solver}: {surface}");
+                // H = B, since F·1 = 1 and B is the same everywhere.
+                assert!((mean("mean_irradiance") / expected - 1.0).abs() < 1e-4, "{solver}: {surface}");
+            }
+        }
+    }
+    assert!(run("--method collocation")["closure_defect"].as_f64().unwrap() < 1e-6);
+    assert_eq!(run("--method nystrom --tolerance 1e-3")["method"], "nystrom");
+}
+
+#[test]
+fn the_command_line_overrides_the_scene_file_and_that_the_defaults() {
+    let folder = folder("settings");
+    let mesh = Path::new(&furnace()).with_file_name("furnace.obj");
+    let scene = format!(
+        "unit = \"m\"\nmeshes = [{mesh:?}]\n[solve]\npatch_size = 0.5\nsolver = \"jacobi\"\nmethod = \"collocation\"\n"
+    );
+    fs::write(folder.join("scene.toml"), scene).unwrap();
+    let run = |words: &str| {
+        let report = json(&fredholm(&folder, &format!("radiosity scene.toml --json - {words}")).stdout);
+        let word = |key: &str| report[key].as_str().unwrap().to_owned();
+        (report["patches"].as_u64().unwrap(), word("method"), word("solver"))
+    };
+    assert_eq!(run(""), (24, "collocation".into(), "jacobi".into()));
+    assert_eq!(run("--solver gmres --patch-size 1"), (6, "collocation".into(), "gmres".into()));
+    assert_eq!(run("--patch-count 54 --method galerkin"), (54, "galerkin".into(), "jacobi".into()));
+}
+
+#[test]
+fn what_has_not_converged_is_written_and_told() {
+    let folder = folder("not_converged");
+    let output =
+        fredholm(&folder, &format!("{QUICK} --solver successive --iterations 2 --json a.json -o a.png"));
+    assert_eq!(output.status.code(), Some(3));
+    assert_eq!(names(&folder), ["a.json", "a.png"]);
+    let table = text(&output.stdout);
+    assert!(table.contains("NOT CONVERGED") && table.contains("each one bounce of light"), "{table}");
+    assert_eq!(json(&fs::read(folder.join("a.json")).unwrap())["outcome"], "out of iterations");
+}
+
+#[test]
+fn frames_are_numbered_by_iteration() {
+    let folder = folder("frames");
+    let frames = |words: &str| {
+        let output = fredholm(&folder, &format!("{QUICK} --frames deep/er --iterations 250 {words}"));
+        assert!(output.status.code().is_some_and(|code| code != 1), "{}", text(&output.stderr));
+        let names = names(&folder.join("deep/er"));
+        fs::remove_dir_all(folder.join("deep")).unwrap();
+        names
+    };
+    assert_eq!(frames("--solver southwell --ambient"), ["00100.png", "00200.png"]);
+    assert_eq!(frames("--solver gmres --every 3")[..2], ["00003.png", "00006.png"]);
+    assert_eq!(frames("--false-colour")[0], "00001.png");
+    assert!(names(&folder).is_empty(), "frames alone make no final picture");
+}
+
+#[test]
+fn patches_are_written_in_both_formats() {
+    let folder = folder("patches");
+    fredholm(&folder, &format!("{QUICK} --patches a.csv"));
+    fredholm(&folder, &format!("{QUICK} --patches a.npz --json -"));
+    assert_eq!(names(&folder), ["a.csv", "a.npz"]);
+    let csv = fs::read_to_string(folder.join("a.csv")).unwrap();
+    assert!(csv.starts_with("x,y,z,nx,ny,nz,area,emission_r,") && csv.lines().count() > 100);
+    assert!(fs::read(folder.join("a.npz")).unwrap().starts_with(b"PK"));
+}
+
+#[test]
+fn a_spectrum_has_76_channels_of_one_matrix() {
+    let folder = folder("spectral");
+    let output = fredholm(&folder, &format!("{QUICK} --bands spectral --json - -o a.png"));
+    let report = json(&output.stdout);
+    assert_eq!(report["surfaces"][0]["mean_radiosity"].as_array().unwrap().len(), 76);
+    assert_eq!(names(&folder), ["a.png"]);
+}
+
+#[test]
+fn a_full_disk_is_told() {
+    if Path::new("/dev/full").exists() {
+        let output = fredholm(&folder("full"), &format!("{QUICK} --json /dev/full"));
+        assert_eq!(output.status.code(), Some(1));
+        let message = text(&output.stderr);
+        assert!(message.starts_with("error: cannot write /dev/full: No space left"), "{message}");
+    }
+}
+
+#[test]
+fn a_reader_who_goes_away_is_no_error() {
+    let folder = folder("pipe");
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_fredholm"));
+    command.args(QUICK.split_whitespace()).current_dir(&folder);
+    let mut child = command.stdout(std::process::Stdio::piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    assert!(child.wait().unwrap().success());
+    assert_eq!(names(&folder), ["cornell-box.png"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_leaves_nothing() {
+    let folder = folder("interrupt");
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_fredholm"));
+    command.args(["radiosity", "--accuracy", "1e-5", "-o", "a.png"]).current_dir(&folder);
+    let mut child = command.spawn().unwrap();
+    while names(&folder).is_empty() {
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(names(&folder).is_empty());
+}

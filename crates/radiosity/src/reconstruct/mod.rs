@@ -1,0 +1,28 @@
+//! Room 7: from a value per patch to a field, u(x) = f(x) + ρ(x) ∫ K(x, y) u(y) dy: Nyström's interpolant (1.29),
+//! known in computer graphics as the final gather.
+//!
+//! The integral is split by what it sees. Light straight from lamps makes the sharp shadows: it is Lambert's exact
+//! form factor times the share of the lamp that is not hidden ([`Lamps`]). Light that patches reflect is smooth:
+//! rays in a cosine distribution find it ([`Gather`]).
+
+mod direct;
+mod gather;
+mod lattice;
+
+pub use direct::Lamps;
+pub use gather::{Gather, Gathered};
+pub use lattice::Rotation;
+pub(crate) use lattice::lattice;
+
+use glam::DVec3;
+
+/// A point of a surface from which light is looked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Site {
+    /// The point, in metres, just off the surface so that its rays do not start inside it.
+    pub point: DVec3,
+    /// The unit normal of the front.
+    pub normal: DVec3,
+    /// How the sample pattern is rotated here.
+    pub rotation: Rotation,
+}

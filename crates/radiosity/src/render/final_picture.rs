@@ -1,0 +1,207 @@
+//! L(x) = (E + ρ H)/π at every pixel, with the irradiance H found anew there: direct light exactly, indirect light
+//! by a final gather.
+
+use crate::patches::Patches;
+use crate::polygon::Polygon;
+use crate::reconstruct::{Gather, Lamps, Rotation, Site};
+use crate::render::colour::Colour;
+use crate::render::fragments::{Fragment, Fragments};
+use crate::render::picture::Picture;
+use crate::render::smooth::{Lit, Planes, smooth};
+use crate::render::view::{Rays, View};
+use crate::scene::{Scene, Surface};
+use crate::visibility::Visibility;
+use std::f64::consts::PI;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+
+/// The picture of a solved scene: soft shadows from its lamps, indirect light without the seams of patches.
+///
+/// `radiosity` is B in W/m², one per patch. `progress` is told how many rows are lit, from whatever thread lit
+/// the last; the digits of the picture do not depend on the threads.
+pub fn final_picture<V: Colour>(
+    view: &View,
+    scene: &Scene<V>,
+    patches: &Patches<V>,
+    visibility: &Visibility,
+    radiosity: &[V],
+    progress: &(dyn Fn(usize) + Sync),
+) -> Picture {
+    let polygons: Vec<Polygon> = scene.surfaces.iter().flat_map(|s| s.polygons.iter().cloned()).collect();
+    let rays = Rays::new(&view.camera, view.width, view.height);
+    let shape = (rays, view.width, view.height, view.samples);
+    let fragments = Fragments::new(shape, &polygons, visibility, |polygon, _| polygon);
+    let lighting = Lighting::new(view, scene, patches, visibility, radiosity, &polygons);
+    let lit = by_rows(&fragments, |pixel, fragment| lighting.of(fragment, pixel), progress);
+    let indirect = smooth(&fragments, &Planes::new(scene), &lit);
+    fragments.resolve(|k| lit[k].direct + indirect[k])
+}
+
+/// `light` of every fragment, in order.
+fn by_rows(
+    fragments: &Fragments,
+    light: impl Fn(usize, &Fragment) -> Lit + Sync,
+    progress: &(dyn Fn(usize) + Sync),
+) -> Vec<Lit> {
+    let done = AtomicUsize::new(0);
+    let row = |y: usize| {
+        let pixels = y * fragments.width..(y + 1) * fragments.width;
+        let lit: Vec<Lit> = pixels
+            .flat_map(|p| fragments.all[fragments.of_pixel(p)].iter().map(move |f| (p, f)))
+            .map(|(pixel, fragment)| light(pixel, fragment))
+            .collect();
+        progress(done.fetch_add(1, Ordering::Relaxed) + 1);
+        lit
+    };
+    (0..fragments.height).into_par_iter().map(row).collect::<Vec<_>>().concat()
+}
+
+/// All that the light at a point depends on.
+struct Lighting<'a, V> {
+    gather: Gather<'a, V>,
+    surfaces: Vec<&'a Surface<V>>,
+}
+
+/// How far a point is lifted off its surface, relative to the size of the scene: more than the rounding of where
+/// a ray ends, less than the crack under anything that stands on a floor.
+const LIFT: f64 = 1e-7;
+
+impl<'a, V: Colour> Lighting<'a, V> {
+    fn new(
+        view: &View,
+        scene: &'a Scene<V>,
+        patches: &'a Patches<V>,
+        visibility: &'a Visibility,
+        radiosity: &[V],
+        polygons: &'a [Polygon],
+    ) -> Self {
+        let lamps = Lamps::new(scene, visibility);
+        let radiosity = match &lamps {
+            Some(_) => radiosity.iter().zip(&patches.emission).map(|(b, e)| *b - *e).collect(),
+            None => radiosity.to_vec(),
+        };
+        let lift = LIFT * extent(polygons);
+        Self {
+            gather: Gather { polygons, patches, visibility, radiosity, lamps, lift, rays: view.gather },
+            surfaces: scene.surfaces.iter().flat_map(|s| s.polygons.iter().map(move |_| s)).collect(),
+        }
+    }
+
+    /// What the fragment of a pixel sends to the camera, as radiance.
+    fn of(&self, fragment: &Fragment, pixel: usize) -> Lit {
+        let surface = self.surfaces[fragment.shown as usize];
+        let normal = self.gather.polygons[fragment.shown as usize].normal();
+        let site =
+            Site { point: fragment.point + normal * self.gather.lift, normal, rotation: Rotation::of(pixel) };
+        let direct = self.gather.lamps.as_ref().map_or(V::splat(0.0), |lamps| lamps.irradiance(&site));
+        let gathered = self.gather.at(&site);
+        let radiance = |exitance: V| exitance.to_rgb() * (1.0 / PI);
+        Lit {
+            direct: radiance(surface.emission + surface.reflectance * direct),
+            indirect: radiance(surface.reflectance * gathered.irradiance),
+            openness: gathered.openness,
+        }
+    }
+}
+
+/// The largest coordinate difference between two vertices, in m.
+fn extent(polygons: &[Polygon]) -> f64 {
+    let vertices = || polygons.iter().flat_map(|p| p.vertices().iter().copied());
+    let low = vertices().reduce(glam::DVec3::min).unwrap_or_default();
+    vertices().fold(0.0, |extent, v| extent.max((v - low).max_element()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Camera;
+    use glam::DVec3;
+
+    fn p(x: f64, y: f64, z: f64) -> DVec3 {
+        DVec3::new(x, y, z)
+    }
+
+    /// A cube of edge 2 about the origin, its fronts inside.
+    fn room() -> Vec<Polygon> {
+        [DVec3::X, DVec3::Y, DVec3::Z]
+            .into_iter()
+            .flat_map(|axis| [axis, -axis])
+            .map(|n| {
+                let (s, t) = n.any_orthonormal_pair();
+                // s × t = n: counter-clockwise seen from inside is the other way round.
+                Polygon::quadrilateral(n - s - t, n - s + t, n + s + t, n + s - t)
+            })
+            .collect()
+    }
+
+    fn furnace(polygons: Vec<Polygon>) -> Scene<f64> {
+        let surface = Surface { name: "wall".into(), reflectance: 0.6, emission: 2.0, polygons };
+        Scene { name: "furnace".into(), surfaces: vec![surface], camera: None }
+    }
+
+    fn picture_of(scene: &Scene<f64>, camera: Camera) -> Picture {
+        let patches = Patches::new(scene, 0.5).unwrap();
+        let polygons: Vec<Polygon> = scene.surfaces.iter().flat_map(|s| s.polygons.clone()).collect();
+        let view = View { camera, width: 16, height: 16, samples: 4, gather: 64 };
+        let rows = AtomicUsize::new(0);
+        let picture = final_picture(
+            &view,
+            scene,
+            &patches,
+            &Visibility::new(&polygons),
+            &vec![2.0 / (1.0 - 0.6); patches.len()],
+            &|row| {
+                rows.fetch_max(row, Ordering::Relaxed);
+            },
+        );
+        assert_eq!(rows.into_inner(), 16);
+        picture
+    }
+
+    fn camera(position: DVec3) -> Camera {
+        Camera { position, target: p(0.1, -0.2, 0.0), up: DVec3::Y, vertical_angle: 1.0 }
+    }
+
+    #[test]
+    fn in_a_white_furnace_everything_is_equally_bright_from_inside_and_out() {
+        let scene = furnace(room());
+        for position in [p(0.0, 0.3, 0.9), p(0.6, 1.2, 3.5)] {
+            let picture = picture_of(&scene, camera(position));
+            let front = |l: &&fredholm::value::Rgb| l.0[0] > 1.0;
+            let seen: Vec<_> = picture.pixels.iter().filter(front).collect();
+            assert!(seen.len() > 25, "{}", seen.len());
+            let expected = 2.0 / (1.0 - 0.6) / PI;
+            // From outside, the outline's pixels are partly empty.
+            let equal = seen.iter().filter(|l| (l.0[0] / expected - 1.0).abs() < 0.01).count();
+            assert!(
+                equal * 10 >= seen.len() * if position.z < 1.0 { 10 } else { 6 },
+                "{equal} of {}",
+                seen.len()
+            );
+        }
+    }
+
+    #[test]
+    fn many_lamps_make_the_same_furnace() {
+        let halves =
+            |p: &Polygon| p.triangles().map(|[a, b, c]| Polygon::triangle(a, b, c)).collect::<Vec<_>>();
+        let mut polygons = room();
+        for _ in 0..3 {
+            polygons = polygons.iter().flat_map(halves).flat_map(|t| quarters(&t)).collect();
+        }
+        let picture = picture_of(&furnace(polygons), camera(p(0.0, 0.3, 0.9)));
+        assert!(picture.pixels.iter().all(|l| (l.0[0] * PI / 5.0 - 1.0).abs() < 0.01));
+    }
+
+    fn quarters(t: &Polygon) -> Vec<Polygon> {
+        let v = t.vertices();
+        let (ab, bc, ca) = ((v[0] + v[1]) / 2.0, (v[1] + v[2]) / 2.0, (v[2] + v[0]) / 2.0);
+        vec![
+            Polygon::triangle(v[0], ab, ca),
+            Polygon::triangle(ab, v[1], bc),
+            Polygon::triangle(ca, bc, v[2]),
+            Polygon::triangle(ab, bc, ca),
+        ]
+    }
+}

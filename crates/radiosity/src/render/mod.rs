@@ -1,0 +1,23 @@
+//! Room 8: the radiance L = B/π that reaches a camera, as a picture, and as a map of numbers.
+
+mod automatic;
+mod colour;
+mod false_colour;
+mod final_picture;
+mod fragments;
+mod palette;
+mod picture;
+mod png;
+mod preview;
+mod smooth;
+mod tone;
+mod view;
+
+pub use colour::Colour;
+pub use false_colour::{Scale, false_colour};
+pub use final_picture::final_picture;
+pub use picture::Picture;
+pub use png::{PngError, write_png};
+pub use preview::Preview;
+pub use tone::Exposure;
+pub use view::{Rays, View};

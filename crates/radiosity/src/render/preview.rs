@@ -1,0 +1,38 @@
+//! A quick picture of the patches as they are, for the frames of a solution that converges.
+
+use crate::patches::Patches;
+use crate::polygon::Polygon;
+use crate::render::colour::Colour;
+use crate::render::fragments::Fragments;
+use crate::render::picture::Picture;
+use crate::render::view::{Rays, View};
+use crate::visibility::Visibility;
+use fredholm::value::Value;
+use std::f64::consts::PI;
+
+/// Which patches each pixel of a view shows: found once, so that a frame costs no rays.
+pub struct Preview {
+    fragments: Fragments,
+}
+
+impl Preview {
+    /// Finds the patches in sight. `polygons` are those of the scene, in the order of its surfaces; the view's
+    /// `gather` plays no part.
+    pub fn new<V: Value>(
+        view: &View,
+        polygons: &[Polygon],
+        patches: &Patches<V>,
+        visibility: &Visibility,
+    ) -> Self {
+        let rays = Rays::new(&view.camera, view.width, view.height);
+        let shape = (rays, view.width, view.height, view.samples);
+        let patch_at = |polygon, point| patches.patch_at(polygon, point) as u32;
+        Self { fragments: Fragments::new(shape, polygons, visibility, patch_at) }
+    }
+
+    /// The picture of these radiosities, in W/m², one per patch.
+    pub fn draw<V: Colour>(&self, radiosity: &[V]) -> Picture {
+        let radiance: Vec<_> = radiosity.iter().map(|b| b.to_rgb() * (1.0 / PI)).collect();
+        self.fragments.resolve(|k| radiance[self.fragments.all[k].shown as usize])
+    }
+}
