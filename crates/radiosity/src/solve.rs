@@ -63,6 +63,21 @@ pub struct Options {
     pub memory: u64,
 }
 
+impl Default for Options {
+    /// Galerkin by Gauss–Seidel: row sums to 10⁻³, a residual of 10⁻⁶ of the brightest emission, 8 GiB.
+    fn default() -> Self {
+        Self {
+            method: Method::Galerkin,
+            solver: Solver::GaussSeidel,
+            accuracy: 1e-3,
+            tolerance: 1e-6,
+            iterations: 1000,
+            ambient: false,
+            memory: 8 << 30,
+        }
+    }
+}
+
 /// Why there is no solution.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SolveError {

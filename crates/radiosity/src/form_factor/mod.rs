@@ -1,7 +1,7 @@
 //! Room 5: F_ij = 1/A_i ∫_{P_i} ∫_{P_j} K(x, y) dy dx, or at the centroid of P_i alone: what F_ij *is* for light.
 //!
 //! An unoccluded factor is computed ([`lambert`], [`exchange`]); the part of it that arrives is sampled with rays
-//! ([`sampled`]), except where the two patches certainly see each other or certainly do not.
+//! (`sampled`), except where the two patches certainly see each other or certainly do not.
 //!
 //! | radiosity | general theory | |
 //! |---|---|---|
