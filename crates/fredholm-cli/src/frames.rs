@@ -1,52 +1,20 @@
 //! A picture per iteration: the patches as the solver has them.
 
 use crate::args::{Radiosity, Solver};
-use crate::output::Output;
+use crate::domain::Domain;
+use crate::output::Folder;
 use crate::outputs::write_png;
 use crate::picture::{map, view};
-use crate::radiosity::Domain;
 use crate::settings::Settings;
-use anyhow::{Context, Result};
+use anyhow::Result;
 use fredholm::neumann::estimated_rest;
 use fredholm::relax::Relaxation;
 use fredholm::value::{Rgb, Value};
 use radiosity::patches::Patches;
 use radiosity::render::{Colour, Exposure, Picture, Preview};
 use std::f64::consts::PI;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
-
-/// A folder for frames: made if need be, and taken away again if it was made for nothing.
-#[derive(Debug)]
-pub struct Folder {
-    path: PathBuf,
-    made: bool,
-}
-
-impl Folder {
-    /// Makes sure that files can be written into it.
-    pub fn prepare(path: &Path) -> Result<Self> {
-        let made = !path.exists();
-        fs::create_dir_all(path).with_context(|| format!("cannot make the folder {}", path.display()))?;
-        let folder = Self { path: path.to_owned(), made };
-        folder.frame(1)?;
-        Ok(folder)
-    }
-
-    fn frame(&self, iteration: usize) -> Result<Output> {
-        Output::prepare(&self.path.join(format!("{iteration:05}.png")))
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        if self.made {
-            // Only an empty folder can be removed, which is what is wanted.
-            let _ = fs::remove_dir(&self.path);
-        }
-    }
-}
 
 /// Draws and writes the frames, and keeps account of it.
 pub struct Frames {

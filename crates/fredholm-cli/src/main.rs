@@ -1,6 +1,7 @@
 //! The command `fredholm`: integral equations, and the light in a building as one of them.
 
 mod args;
+mod domain;
 mod frames;
 mod memory;
 mod output;
@@ -12,6 +13,7 @@ mod report;
 mod settings;
 mod table;
 mod terminal;
+mod timing;
 
 use crate::args::{Cli, Command};
 use crate::radiosity::Ending;

@@ -109,6 +109,38 @@ fn temporary(folder: &Path) -> Result<NamedTempFile> {
     Ok(file)
 }
 
+/// A folder for frames: made if need be, and taken away again if it was made for nothing.
+#[derive(Debug)]
+pub struct Folder {
+    path: PathBuf,
+    made: bool,
+}
+
+impl Folder {
+    /// Makes sure that files can be written into it.
+    pub fn prepare(path: &Path) -> Result<Self> {
+        let made = !path.exists();
+        fs::create_dir_all(path).with_context(|| format!("cannot make the folder {}", path.display()))?;
+        let folder = Self { path: path.to_owned(), made };
+        folder.frame(1)?;
+        Ok(folder)
+    }
+
+    /// The file of an iteration's frame.
+    pub fn frame(&self, iteration: usize) -> Result<Output> {
+        Output::prepare(&self.path.join(format!("{iteration:05}.png")))
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        if self.made {
+            // Only an empty folder can be removed, which is what is wanted.
+            let _ = fs::remove_dir(&self.path);
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

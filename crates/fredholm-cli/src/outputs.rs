@@ -1,8 +1,7 @@
 //! Which files a run leaves, each prepared before the work begins.
 
 use crate::args::Radiosity;
-use crate::frames::Folder;
-use crate::output::Output;
+use crate::output::{Folder, Output};
 use anyhow::{Result, bail};
 use fredholm::value::Value;
 use image::{ImageFormat, RgbImage};

@@ -1,8 +1,8 @@
 //! The picture of the solution.
 
 use crate::args::Radiosity;
-use crate::progress::rows;
-use crate::radiosity::Domain;
+use crate::domain::Domain;
+use crate::terminal::bar;
 use image::RgbImage;
 use radiosity::render::{Colour, Exposure, Picture, Scale, View, false_colour, final_picture};
 use radiosity::scene::Camera;
@@ -25,7 +25,7 @@ pub fn view<V>(args: &Radiosity, domain: &Domain<'_, V>) -> View {
 /// The final picture, as a photograph or as a map of numbers.
 pub fn draw<V: Colour>(args: &Radiosity, domain: &Domain<'_, V>, radiosity: &[V]) -> RgbImage {
     let view = view(args, domain);
-    let bar = rows(view.height);
+    let bar = bar("picture", view.height as u64);
     let row = |done: usize| bar.set_position(done as u64);
     let Domain { scene, patches, visibility, .. } = domain;
     let picture = final_picture(&view, scene, patches, visibility, radiosity, &row);

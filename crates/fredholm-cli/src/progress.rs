@@ -2,30 +2,19 @@
 
 use crate::args::{Method, name};
 use crate::frames::Frames;
-use crate::report::Seconds;
 use crate::settings::Settings;
+use crate::terminal::bar;
+use crate::timing::Seconds;
 use anyhow::Result;
 use fredholm::relax::Relaxation;
 use fredholm::value::Value;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 use radiosity::render::Colour;
 use radiosity::solve::{Observer, Solution};
 use std::path::PathBuf;
 
 /// Steps of the bar of a relaxation, from the first residual to the last on a logarithmic scale.
 const STEPS: f64 = 1000.0;
-
-/// A bar on the standard error, when that is a terminal.
-fn bar(title: &'static str, length: u64) -> ProgressBar {
-    let style = ProgressStyle::with_template("{prefix:>13} {wide_bar} {percent:>3} % {msg}")
-        .unwrap_or_else(|_| ProgressStyle::default_bar());
-    ProgressBar::new(length).with_style(style).with_prefix(title)
-}
-
-/// The bar of a picture.
-pub fn rows(height: usize) -> ProgressBar {
-    bar("picture", height as u64)
-}
 
 /// Watches the solver: moves its bars and records its frames.
 pub struct Watcher {

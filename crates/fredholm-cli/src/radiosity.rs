@@ -1,25 +1,24 @@
 //! The walk: a scene becomes patches, form factors, a solved field, a picture and files.
 
 use crate::args::{Bands, Radiosity};
+use crate::domain::Domain;
 use crate::frames::Frames;
 use crate::output::{Output, clear_on_interrupt};
 use crate::outputs::{Outputs, Report as ReportTo, write_field, write_png};
 use crate::picture::draw;
 use crate::progress::Watcher;
-use crate::report::{Report, Seconds, timed};
+use crate::report::Report;
 use crate::settings::Settings;
 use crate::table::table;
 use crate::terminal::{Stream, say};
+use crate::timing::{Seconds, timed};
 use anyhow::{Context, Result, bail};
 use fredholm::relax::Outcome;
 use fredholm::value::Value;
 use radiosity::export::Field;
-use radiosity::patches::{PatchError, Patches};
-use radiosity::polygon::Polygon;
 use radiosity::render::Colour;
 use radiosity::scene::{Scene, SolveOptions, cornell_box, cornell_box_spectral, load};
 use radiosity::solve::{Solution, solve};
-use radiosity::visibility::Visibility;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -31,28 +30,6 @@ pub enum Ending {
     Converged,
     /// The iterations were used up.
     NotConverged,
-}
-
-/// A scene, cut into patches and ready for rays.
-pub struct Domain<'a, V> {
-    /// The scene.
-    pub scene: &'a Scene<V>,
-    /// Its polygons, in the order of its surfaces.
-    pub polygons: Vec<Polygon>,
-    /// Its patches.
-    pub patches: Patches<V>,
-    /// Who sees whom.
-    pub visibility: Visibility,
-}
-
-impl<'a, V: Value> Domain<'a, V> {
-    fn new(scene: &'a Scene<V>, size: f64, seconds: &mut Seconds) -> Result<Self, PatchError> {
-        let patches = timed(&mut seconds.patches, || Patches::new(scene, size))?;
-        let polygons: Vec<Polygon> =
-            scene.surfaces.iter().flat_map(|surface| surface.polygons.iter().cloned()).collect();
-        let visibility = timed(&mut seconds.visibility, || Visibility::new(&polygons));
-        Ok(Self { scene, polygons, patches, visibility })
-    }
 }
 
 /// `fredholm radiosity`.

@@ -1,6 +1,7 @@
 //! The numbers of a run as people read them.
 
-use crate::report::{Report, Seconds};
+use crate::report::Report;
+use crate::timing::Seconds;
 use std::fmt::Write;
 
 /// The table, a line per matter.

@@ -1,5 +1,6 @@
 //! The one place that writes to the terminal; a reader who has gone away is no error.
 
+use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{self, ErrorKind, Write};
 
 /// Where people and programs read.
@@ -31,4 +32,11 @@ pub fn complain(error: &anyhow::Error) -> io::Result<()> {
 fn write_all(mut out: impl Write, text: &str) -> io::Result<()> {
     out.write_all(text.as_bytes())?;
     out.flush()
+}
+
+/// A bar on the standard error, when that is a terminal.
+pub fn bar(title: &'static str, length: u64) -> ProgressBar {
+    let style = ProgressStyle::with_template("{prefix:>13} {wide_bar} {percent:>3} % {msg}")
+        .unwrap_or_else(|_| ProgressStyle::default_bar());
+    ProgressBar::new(length).with_style(style).with_prefix(title)
 }

@@ -1,10 +1,8 @@
 //! A picture: the radiance that reaches each pixel, linear.
 
-use crate::render::png::{PngError, write_png};
 use crate::render::tone::Exposure;
 use fredholm::value::Rgb;
 use image::RgbImage;
-use std::path::Path;
 
 /// Radiance per pixel in W/(m² sr), linear, with the primaries of sRGB.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,10 +22,5 @@ impl Picture {
             let pixel = self.pixels[y as usize * self.width + x as usize];
             image::Rgb(exposure.to_screen(pixel, x, y))
         })
-    }
-
-    /// Writes the developed picture as PNG; the file is whole or not there.
-    pub fn write_png(&self, path: &Path, exposure: Exposure) -> Result<(), PngError> {
-        write_png(&self.develop(exposure), path)
     }
 }
