@@ -282,9 +282,9 @@ fn the_ambient_term_is_the_estimated_rest_of_the_neumann_series() {
         let series: f64 = (0..200).map(|power| mean(reflectance, k).powi(power)).sum();
         let classical = series * mean(&unshot, k);
         assert!((estimated_rest(&unshot, reflectance, areas).0[k] / classical - 1.0).abs() < 1e-12);
-        for i in 0..areas.len() {
-            let shown = plain.preview()[i].0[k] + reflectance[i].0[k] * classical;
-            assert!((ambient.preview()[i].0[k] - shown).abs() < 1e-12);
+        let pictures = plain.preview().into_iter().zip(ambient.preview()).zip(reflectance);
+        for ((without, with), rho) in pictures {
+            assert!((with.0[k] - (without.0[k] + rho.0[k] * classical)).abs() < 1e-12);
         }
     }
 }
