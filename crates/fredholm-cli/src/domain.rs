@@ -23,8 +23,7 @@ impl<'a, V: Value> Domain<'a, V> {
     /// Cuts the scene into patches of a size, in metres.
     pub fn new(scene: &'a Scene<V>, size: f64, seconds: &mut Seconds) -> Result<Self, PatchError> {
         let patches = timed(&mut seconds.patches, || Patches::new(scene, size))?;
-        let polygons: Vec<Polygon> =
-            scene.surfaces.iter().flat_map(|surface| surface.polygons.iter().cloned()).collect();
+        let polygons = scene.polygons();
         let visibility = timed(&mut seconds.visibility, || Visibility::new(&polygons));
         Ok(Self { scene, polygons, patches, visibility })
     }

@@ -26,7 +26,7 @@ pub struct Report {
     pub method: String,
     /// The solver.
     pub solver: String,
-    /// `converged` or `out of iterations`.
+    /// `converged`, `out of iterations` or `stalled at rounding`.
     pub outcome: &'static str,
     /// Iterations made.
     pub iterations: usize,
@@ -36,8 +36,10 @@ pub struct Report {
     pub target: f64,
     /// Bound of max |B − B̃|, the error that the solver left.
     pub error_bound: Option<f64>,
-    /// ‖ρF‖∞, or its bound.
+    /// ‖ρF‖∞, from so many row sums.
     pub norm: f64,
+    /// Row sums computed: all, or for a solver that stores no matrix a sample of them.
+    pub norm_rows: usize,
     /// max |Σ_j F_ij − 1| over the rows checked.
     pub closure_defect: Option<f64>,
     /// How many rows were checked.
@@ -108,19 +110,23 @@ impl Report {
             Closure::Closed { rows: 0, .. } => (None, Some(0), None),
             Closure::Closed { defect, rows } => (Some(defect), Some(rows), None),
         };
-        let converged = solution.report.outcome == Outcome::Converged;
         Self {
             scene: domain.scene.name.clone(),
             patches: domain.patches.len(),
             patch_size: settings.size(domain.scene),
             method: name(&settings.method),
             solver: name(&settings.solver),
-            outcome: if converged { "converged" } else { "out of iterations" },
+            outcome: match solution.report.outcome {
+                Outcome::Converged => "converged",
+                Outcome::Stalled => "stalled at rounding",
+                Outcome::OutOfSweeps | Outcome::Diverged | Outcome::Interrupted => "out of iterations",
+            },
             iterations: solution.report.residuals.len(),
             residual: solution.report.residual,
             target: options.tolerance * brightest,
             error_bound: solution.error_bound,
             norm: solution.norm,
+            norm_rows: solution.rows,
             closure_defect,
             closure_rows,
             escaping,

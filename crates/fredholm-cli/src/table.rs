@@ -43,15 +43,21 @@ fn iterations(report: &Report) -> String {
 
 fn residual(report: &Report) -> String {
     let Report { residual, target, .. } = report;
-    if report.outcome == "converged" {
-        format!("{residual:.1e} W/m², of {target:.1e} allowed")
-    } else {
-        format!("{residual:.1e} W/m²: NOT CONVERGED to {target:.1e}; allow more --iterations")
-    }
+    let mend = match report.outcome {
+        "converged" => return format!("{residual:.1e} W/m², of {target:.1e} allowed"),
+        "stalled at rounding" => "no solver gets below rounding, ask for a larger --tolerance",
+        _ if report.solver == "direct" => "this is its rounding, ask for a larger --tolerance",
+        _ => "allow more --iterations",
+    };
+    format!("{residual:.1e} W/m²: NOT CONVERGED to {target:.1e}; {mend}")
 }
 
 fn error_bound(report: &Report) -> String {
     match report.error_bound {
+        Some(bound) if report.norm_rows < report.patches => {
+            let Report { norm, norm_rows, .. } = report;
+            format!("{bound:.1e} W/m² from the solver, if ‖ρF‖ ≤ {norm:.3} as in {norm_rows} rows")
+        }
         Some(bound) => format!("{bound:.1e} W/m² from the solver, since ‖ρF‖ ≤ {:.3}", report.norm),
         None => format!("none, since ‖ρF‖ = {:.3} is not less than 1", report.norm),
     }

@@ -28,6 +28,9 @@ const RESTART: usize = 60;
 /// Below this part of its length before orthogonalisation a new vector is rounding: the channel's space is complete.
 const BREAKDOWN: f64 = 1e-14;
 
+/// Below this part of the first residual the estimated one is rounding: only a new start can get on from there.
+const COMPLETE: f64 = 1e-15;
+
 impl<'a, V: Value, F: Operator<V>> Gmres<'a, V, F> {
     /// Starts from u = f.
     pub fn new(system: System<'a, V, F>) -> Self {
@@ -85,8 +88,9 @@ impl<'a, V: Value, F: Operator<V>> Gmres<'a, V, F> {
         }
         let k = self.rotations.len();
         let length = (column[k] * column[k] + column[k + 1] * column[k + 1]).map(f64::sqrt);
-        // A channel that is done (length 0) keeps its residual: rotation by the identity.
-        let (c, s) = (column[k] * reciprocal(length), column[k + 1] * reciprocal(length));
+        // A channel that is done (length 0) keeps its residual: its cosine is 0, and its sine −1.
+        let sine = column[k + 1].zip(length, |h, length| if length == 0.0 { -1.0 } else { h / length });
+        let (c, s) = (column[k] * reciprocal(length), sine);
         let last = self.rotated[k];
         self.rotated[k] = c * last;
         self.rotated.push(s * last * -1.0);
@@ -111,7 +115,8 @@ impl<'a, V: Value, F: Operator<V>> Gmres<'a, V, F> {
 impl<V: Value, F: Operator<V>> Relaxation<V> for Gmres<'_, V, F> {
     /// One step of Arnoldi's process. The norm returned is the 2-norm, which is never below the ∞-norm.
     fn sweep(&mut self) -> f64 {
-        if self.triangle.len() == RESTART {
+        let estimate = max_norm(&self.rotated[self.rotated.len() - 1..]);
+        if self.triangle.len() == RESTART || estimate <= COMPLETE * max_norm(&self.rotated[..1]) {
             self.start = self.solution();
             self.restart();
         }

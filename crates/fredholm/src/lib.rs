@@ -66,7 +66,7 @@
 //! });
 //! assert_eq!(report.outcome, Outcome::Converged);
 //!
-//! let norm = norm_bound(&coefficient, &row_sums(&matrix));
+//! let norm = norm_bound(&coefficient, &row_sums(&matrix, &(0..10).collect::<Vec<_>>()));
 //! let bound = error_bound(report.residual, norm).expect("‖ρF‖ < 1 here");
 //! let exact = fredholm::direct::solve(system);
 //! let error = gauss_seidel.solution()[4].0[2] - exact[4].0[2];

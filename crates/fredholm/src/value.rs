@@ -45,6 +45,12 @@ pub trait Value:
         self
     }
 
+    /// `function` of each channel and the same channel of `other`.
+    fn zip(mut self, other: Self, function: impl Fn(f64, f64) -> f64) -> Self {
+        self.channels_mut().iter_mut().zip(other.channels()).for_each(|(c, o)| *c = function(*c, *o));
+        self
+    }
+
     /// Whether no channel is infinite or NaN.
     fn all_finite(&self) -> bool {
         self.channels().iter().all(|c| c.is_finite())

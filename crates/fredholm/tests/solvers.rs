@@ -6,7 +6,7 @@ use fredholm::direct;
 use fredholm::discretize::{Collocation, Coupling, Galerkin, Nystrom};
 use fredholm::krylov::Gmres;
 use fredholm::neumann::estimated_rest;
-use fredholm::operator::{Dense, Matrix, OnTheFly, Rows};
+use fredholm::operator::{Dense, Matrix, OnTheFly, Operator, Rows};
 use fredholm::quadrature::gauss_legendre;
 use fredholm::relax::*;
 use fredholm::space::Space;
@@ -54,7 +54,12 @@ fn solvers<'a>(
         ("gauss-seidel", Box::new(GaussSeidel::new(system))),
         ("southwell", Box::new(Southwell::new(system, weights))),
         ("gmres", Box::new(Gmres::new(system))),
+        ("direct", Box::new(direct::Direct::new(system))),
     ]
+}
+
+fn all_row_sums(matrix: &Dense<f64>) -> Vec<f64> {
+    row_sums(matrix, &(0..N).collect::<Vec<_>>())
 }
 
 fn distance<V: Value>(a: &[V], b: &[V]) -> f64 {
@@ -67,7 +72,7 @@ fn every_solver_finds_what_the_direct_one_finds_and_its_bound_holds() {
     let system = System::new(&p.source, &p.coefficient, &p.matrix).unwrap();
     let exact = direct::solve(system);
     assert!(max_norm(&system.residual(&exact)) < 1e-12);
-    let norm = norm_bound(&p.coefficient, &row_sums(&p.matrix));
+    let norm = norm_bound(&p.coefficient, &all_row_sums(&p.matrix));
     assert!(norm < 1.0, "{norm}");
     let weights: Vec<f64> = (0..N).map(|i| 1.0 + (i % 5) as f64).collect();
     for tolerance in [1e-2, 1e-6, 1e-10] {
@@ -159,7 +164,7 @@ fn divergence_and_exhaustion_are_reported() {
     let report = relax(&mut SuccessiveApproximation::new(system), stop, |_, _, _| true);
     assert_eq!(report.outcome, Outcome::Diverged);
     assert!(report.residuals.len() < 50);
-    assert_eq!(error_bound(1.0, norm_bound(&large, &row_sums(&p.matrix))), None);
+    assert_eq!(error_bound(1.0, norm_bound(&large, &all_row_sums(&p.matrix))), None);
 
     let system = System::new(&p.source, &p.coefficient, &p.matrix).unwrap();
     let stop = Stop { residual: 1e-9, sweeps: 2 };
@@ -168,6 +173,33 @@ fn divergence_and_exhaustion_are_reported() {
     let stop = Stop { residual: 1e-9, sweeps: 500 };
     let report = relax(&mut Jacobi::new(system), stop, |sweep, _, _| sweep < 4);
     assert_eq!((report.outcome, report.residuals.len()), (Outcome::Interrupted, 4));
+}
+
+#[test]
+fn a_residual_below_rounding_is_a_stall_and_no_divergence() {
+    let p = problem();
+    let system = System::new(&p.source, &p.coefficient, &p.matrix).unwrap();
+    let weights = vec![1.0; N];
+    for (name, mut solver) in solvers(system, &weights) {
+        let report = relax(&mut *solver, Stop { residual: 1e-20, sweeps: 3000 }, |_, _, _| true);
+        assert_ne!(report.outcome, Outcome::Diverged, "{name}: {report:?}");
+        // 100 is the size of the solution.
+        assert!(report.residual < 1e-11, "{name}: {}", report.residual);
+    }
+}
+
+#[test]
+fn southwell_carries_what_the_unknowns_have_gathered() {
+    let p = problem();
+    let system = System::new(&p.source, &p.coefficient, &p.matrix).unwrap();
+    let weights = vec![1.0; N];
+    let mut solver = Southwell::new(system, &weights);
+    for _ in 0..300 {
+        solver.sweep();
+    }
+    let mut image = vec![Spectrum([0.0; 3]); N];
+    p.matrix.apply(&solver.solution(), &mut image);
+    assert!(distance(&image, solver.gathered()) < 1e-10);
 }
 
 #[test]

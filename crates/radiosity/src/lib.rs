@@ -10,8 +10,7 @@
 //!
 //! let scene = cornell_box(); //                                                 1 the scene
 //! let patches = Patches::new(&scene, 0.15)?; //                                 2 its patches, up to 15 cm
-//! let polygons: Vec<_> = scene.surfaces.iter().flat_map(|s| s.polygons.clone()).collect();
-//! let visibility = Visibility::new(&polygons); //                               3 who sees whom
+//! let visibility = Visibility::new(&scene.polygons()); //                       3 who sees whom
 //! //  4 the kernel, 5 the form factors, 6 the relaxation:
 //! let solution = solve(&patches, &visibility, &Options::default(), &mut Unobserved)?;
 //!

@@ -105,40 +105,47 @@ impl Polygon {
             .map(|[p, q, r, s]| Self::quadrilateral(p, q, r, s))
     }
 
-    /// The part in front of the plane of `other`, in at most two pieces; the whole when no corner is behind it.
-    pub fn in_front_of(&self, other: &Self) -> impl Iterator<Item = Self> + use<> {
-        let v = self.vertices();
-        let heights: [f64; 4] = std::array::from_fn(|k| other.height_of(self.vertices[k]));
-        let mut kept = [DVec3::ZERO; 5];
-        let mut count = 0;
-        let mut keep = |point| {
-            kept[count] = point;
-            count += 1;
-        };
-        for k in 0..v.len() {
-            let next = (k + 1) % v.len();
-            let (h, h_next) = (heights[k], heights[next]);
-            if h >= 0.0 {
-                keep(v[k]);
-            }
-            if (h < 0.0 && h_next > 0.0) || (h > 0.0 && h_next < 0.0) {
-                keep(v[k].lerp(v[next], h / (h - h_next)));
-            }
+    /// The part in front of the plane of `other`, in pieces; the whole when no corner is behind it.
+    pub fn in_front_of(&self, other: &Self) -> Vec<Self> {
+        if self.vertices().iter().all(|v| other.height_of(*v) >= 0.0) {
+            return vec![self.clone()];
         }
-        let [a, b, c, d, e] = kept;
-        let pieces = match count {
-            3 => [Some(Self::triangle(a, b, c)), None],
-            4 => [Some(Self::quadrilateral(a, b, c, d)), None],
-            5 => [Some(Self::quadrilateral(a, b, c, d)), Some(Self::triangle(a, d, e))],
-            _ => [None, None],
-        };
-        pieces.into_iter().flatten().filter(|piece| piece.area > 0.0)
+        // Triangle by triangle: the corners of a quadrilateral that is in the plane but for rounding may be before
+        // and behind it by turns.
+        let pieces = self.triangles().filter_map(|corners| in_front(corners, other));
+        pieces.filter(|piece| piece.area > 0.0).collect()
     }
 
     /// The triangles that it is made of: one or two.
     pub fn triangles(&self) -> impl Iterator<Item = [DVec3; 3]> + use<> {
         let [a, b, c, d] = self.vertices;
         [[a, b, c], [a, c, d]].into_iter().take(usize::from(self.sides) - 2)
+    }
+}
+
+/// The part of a triangle in front of the plane of `other`.
+fn in_front(corners: [DVec3; 3], other: &Polygon) -> Option<Polygon> {
+    let mut kept = [DVec3::ZERO; 4];
+    let mut count = 0;
+    let mut keep = |point| {
+        kept[count] = point;
+        count += 1;
+    };
+    for k in 0..3 {
+        let (p, q) = (corners[k], corners[(k + 1) % 3]);
+        let (h, h_next) = (other.height_of(p), other.height_of(q));
+        if h >= 0.0 {
+            keep(p);
+        }
+        if (h < 0.0 && h_next > 0.0) || (h > 0.0 && h_next < 0.0) {
+            keep(p.lerp(q, h / (h - h_next)));
+        }
+    }
+    let [a, b, c, d] = kept;
+    match count {
+        3 => Some(Polygon::triangle(a, b, c)),
+        4 => Some(Polygon::quadrilateral(a, b, c, d)),
+        _ => None,
     }
 }
 
@@ -201,10 +208,30 @@ mod tests {
             for x in [-1.0, 0.5, 1.5, 2.0, 2.5, 9.0] {
                 let plane = Polygon::triangle(p(x, 0.0, 0.0), p(x, 1.0, 0.3), p(x - 0.5, 0.0, 1.0));
                 let back = Polygon::triangle(p(x, 0.0, 0.0), p(x - 0.5, 0.0, 1.0), p(x, 1.0, 0.3));
-                let area = |side: &Polygon| shape.in_front_of(side).map(|piece| piece.area()).sum::<f64>();
+                let area = |side: &Polygon| shape.in_front_of(side).iter().map(Polygon::area).sum::<f64>();
                 assert!((area(&plane) + area(&back) - shape.area()).abs() < 1e-14, "at {x}");
-                assert!(shape.in_front_of(&plane).all(|piece| plane.height_of(piece.centroid()) > 0.0));
+                assert!(
+                    shape.in_front_of(&plane).iter().all(|piece| plane.height_of(piece.centroid()) > 0.0)
+                );
             }
+        }
+    }
+
+    #[test]
+    fn corners_before_and_behind_a_plane_by_turns_are_cut() {
+        let p = |x, y, z| DVec3::new(x, y, z);
+        let plane = Polygon::triangle(DVec3::ZERO, DVec3::X, DVec3::Y);
+        for off in [1e-9, -1e-9, 1e-15] {
+            let saddle = Polygon::quadrilateral(
+                p(0.0, 0.0, off),
+                p(1.0, 0.0, -off),
+                p(1.0, 1.0, off),
+                p(0.0, 1.0, -off),
+            );
+            let area: f64 = saddle.in_front_of(&plane).iter().map(Polygon::area).sum();
+            // Each of the two triangles has one corner on the other side than its others, which cuts off a quarter.
+            let expected = if off > 0.0 { 0.75 } else { 0.25 };
+            assert!((area - expected).abs() < 1e-6, "{area}");
         }
     }
 

@@ -4,16 +4,15 @@ use crate::closure::Closure;
 use crate::form_factor::{FormFactors, point_to_point};
 use crate::patches::Patches;
 use crate::visibility::Visibility;
-use fredholm::direct;
+use fredholm::direct::Direct;
 use fredholm::discretize::Coupling;
 use fredholm::krylov::Gmres;
-use fredholm::operator::{Columns, Dense, NotFinite, OnTheFly, Rows};
+use fredholm::operator::{Columns, Dense, NotFinite, OnTheFly, Operator, Rows};
 use fredholm::relax::{
     GaussSeidel, Jacobi, Outcome, Relaxation, Report, Southwell, Stop, SuccessiveApproximation, relax,
 };
-use fredholm::system::{System, SystemError, error_bound, norm_bound};
+use fredholm::system::{System, SystemError, error_bound, norm_bound, row_sums};
 use fredholm::value::{Value, max_norm};
-use rayon::prelude::*;
 use std::time::Instant;
 
 /// How the equation becomes numbers: what F_ij is.
@@ -141,8 +140,12 @@ pub struct Solution<V> {
     pub irradiance: Vec<V>,
     /// How the relaxation went.
     pub report: Report,
-    /// ‖ρF‖∞.
+    /// ‖ρF‖∞, from the row sums of F.
     pub norm: f64,
+    /// How many row sums were computed: all for a stored matrix. From a part of them ‖ρF‖∞ is taken, not proved: the
+    /// exact factors of a patch add up to 1 at most, and no row is believed to exceed the largest of 1 and those
+    /// computed by more than three times the accuracy.
+    pub rows: usize,
     /// Bound of the algebraic error max |B − B̃|, W/m², over patches and channels; `None` when ‖ρF‖∞ ≥ 1.
     pub error_bound: Option<f64>,
     /// The closure test.
@@ -196,151 +199,143 @@ impl<V: Value> Run<'_, V> {
         rays: &dyn Fn() -> u64,
         observer: &mut dyn Observer<V>,
     ) -> Result<Solution<V>, SolveError> {
-        let n = coupling.dim();
-        let start = Instant::now();
-        if self.options.solver == Solver::Southwell {
-            let operator = OnTheFly(coupling);
-            let checked = match self.options.method {
-                // Factors between points may add up to anything: the bound needs every row.
-                Method::Nystrom => (0..n).collect(),
-                // Exact factors add up to 1 at most, and these do to their accuracy, which some rows show.
-                _ => spread(n, 64),
-            };
-            let solution = self.shoot(&operator, &checked, observer)?;
-            let columns = solution.report.residuals.len() + checked.len();
-            return Ok(Solution { form_factors: (columns * n) as u64, rays: rays(), ..solution });
-        }
-        let needed = (n as u64).pow(2) * size_of::<f32>() as u64;
-        if needed > self.options.memory {
-            return Err(SolveError::Memory { patches: n, needed, available: self.options.memory });
-        }
-        let half = if coupling.reciprocity().is_some() { n * (n + 1) / 2 } else { n * n };
-        let matrix = Dense::<f32>::assemble(coupling, |entries| observer.assembled(entries))?;
-        let assembly_seconds = start.elapsed().as_secs_f64();
-        let all: Vec<usize> = (0..n).collect();
-        let solution = self.gather(&matrix, &all, observer)?;
-        Ok(Solution { form_factors: half as u64, rays: rays(), assembly_seconds, ..solution })
+        let solution = if self.options.solver == Solver::Southwell {
+            self.shoot(&OnTheFly(coupling), observer)
+        } else {
+            self.gather(coupling, observer)
+        };
+        solution.map(|solution| Solution { rays: rays(), ..solution })
     }
 
-    /// Solves with the columns of F.
+    /// Solves with columns of F that are computed when shot and not stored.
     fn shoot<F: Rows + Columns>(
         &self,
         operator: &F,
-        checked: &[usize],
         observer: &mut dyn Observer<V>,
     ) -> Result<Solution<V>, SolveError> {
+        let start = Instant::now();
+        let n = operator.dim();
         let system = System::new(&self.patches.emission, &self.patches.reflectance, operator)?;
         let southwell = Southwell::new(system, &self.patches.areas);
         let mut southwell = if self.options.ambient { southwell.with_ambient() } else { southwell };
-        self.relax(system, &mut southwell, checked, observer)
+        let report = self.relax(&mut southwell, observer)?;
+        let checked = match self.options.method {
+            // Factors between points may add up to anything: the bound needs every row.
+            Method::Nystrom => spread(n, n),
+            _ => spread(n, SAMPLED_ROWS),
+        };
+        let computed = ((report.residuals.len() + checked.len()) * n) as u64;
+        let solution = self.judge(system, southwell.gathered().to_vec(), report, &checked);
+        Ok(Solution { form_factors: computed, solve_seconds: start.elapsed().as_secs_f64(), ..solution })
     }
 
-    /// Solves with the rows of F, or its action.
-    fn gather<F: Rows>(
+    /// Solves with a stored matrix.
+    fn gather(
         &self,
-        operator: &F,
-        checked: &[usize],
+        coupling: &impl Coupling,
         observer: &mut dyn Observer<V>,
     ) -> Result<Solution<V>, SolveError> {
-        let system = System::new(&self.patches.emission, &self.patches.reflectance, operator)?;
+        let start = Instant::now();
+        let n = coupling.dim();
+        self.check_memory(n)?;
+        let matrix = Dense::<f32>::assemble(coupling, |entries| observer.assembled(entries))?;
+        let assembly_seconds = start.elapsed().as_secs_f64();
+        let start = Instant::now();
+        let system = System::new(&self.patches.emission, &self.patches.reflectance, &matrix)?;
         let mut relaxation: Box<dyn Relaxation<V> + '_> = match self.options.solver {
             Solver::Jacobi => Box::new(Jacobi::new(system)),
             Solver::Successive => Box::new(SuccessiveApproximation::new(system)),
             Solver::Gmres => Box::new(Gmres::new(system)),
-            Solver::Direct => Box::new(Solved::new(system)),
-            Solver::GaussSeidel | Solver::Southwell => Box::new(GaussSeidel::new(system)),
+            Solver::Direct => Box::new(Direct::new(system)),
+            Solver::GaussSeidel => Box::new(GaussSeidel::new(system)),
+            // Not asked for here, and right on a stored matrix too.
+            Solver::Southwell => Box::new(Southwell::new(system, &self.patches.areas)),
         };
-        self.relax(system, &mut *relaxation, checked, observer)
+        let report = self.relax(&mut *relaxation, observer)?;
+        let mut irradiance = vec![V::splat(0.0); n];
+        matrix.apply(&relaxation.solution(), &mut irradiance);
+        let solution = self.judge(system, irradiance, report, &spread(n, n));
+        let half = if coupling.reciprocity().is_some() { n * (n + 1) / 2 } else { n * n };
+        Ok(Solution {
+            form_factors: half as u64,
+            assembly_seconds,
+            solve_seconds: start.elapsed().as_secs_f64(),
+            ..solution
+        })
     }
 
-    fn relax<F: Rows>(
+    /// Whether the matrix fits, and for LU the factors of as many channels as are worked on at once.
+    fn check_memory(&self, n: usize) -> Result<(), SolveError> {
+        let at_once = V::CHANNELS.min(rayon::current_num_threads()) as u64;
+        let bytes = match self.options.solver {
+            Solver::Direct => 4 + 16 * at_once,
+            _ => 4,
+        };
+        let (needed, available) = ((n as u64).pow(2) * bytes, self.options.memory);
+        if needed > available {
+            return Err(SolveError::Memory { patches: n, needed, available });
+        }
+        Ok(())
+    }
+
+    fn relax(
         &self,
-        system: System<'_, V, F>,
         relaxation: &mut dyn Relaxation<V>,
-        checked: &[usize],
         observer: &mut dyn Observer<V>,
-    ) -> Result<Solution<V>, SolveError> {
-        let start = Instant::now();
-        let target = self.options.tolerance * max_norm(system.source);
-        let stop = Stop { residual: target, sweeps: self.options.iterations };
+    ) -> Result<Report, SolveError> {
+        let target = self.options.tolerance * max_norm(&self.patches.emission);
+        // A second factorisation would find the same.
+        let sweeps = if self.options.solver == Solver::Direct { 1 } else { self.options.iterations };
+        let stop = Stop { residual: target, sweeps };
         let report =
             relax(relaxation, stop, |k, norm, relaxation| observer.relaxed(k, norm, target, relaxation));
-        if report.outcome == Outcome::Diverged {
-            return Err(SolveError::Diverged {
-                iterations: report.residuals.len(),
-                residual: report.residual,
-            });
+        match report.outcome {
+            Outcome::Diverged => {
+                Err(SolveError::Diverged { iterations: report.residuals.len(), residual: report.residual })
+            }
+            _ => Ok(report),
         }
-        let solution = relaxation.solution();
-        let radiosity: Vec<V> =
-            solution.iter().zip(relaxation.residual()).map(|(u, residual)| *u + residual).collect();
-        let irradiance = irradiance(system, &solution, &radiosity);
+    }
+
+    /// The solution from the irradiance H = F u, with what the row sums of F say of it.
+    fn judge<F: Rows>(
+        &self,
+        system: System<'_, V, F>,
+        irradiance: Vec<V>,
+        report: Report,
+        checked: &[usize],
+    ) -> Solution<V> {
+        let terms = system.source.iter().zip(system.coefficient).zip(&irradiance);
+        let radiosity = terms.map(|((e, rho), h)| *e + *rho * *h).collect();
         let sums = row_sums(system.operator, checked);
         let norm = if sums.len() == system.dim() {
-            let sums: Vec<f64> = sums.iter().map(|&(_, sum)| sum).collect();
             norm_bound(system.coefficient, &sums)
         } else {
-            let largest = sums.iter().fold(1.0_f64, |largest, &(_, sum)| largest.max(sum));
+            let largest = sums.iter().fold(1.0, |a: f64, b| a.max(*b)) + 3.0 * self.options.accuracy;
             max_norm(system.coefficient) * largest
         };
-        Ok(Solution {
+        let rows: Vec<(usize, f64)> = checked.iter().copied().zip(sums).collect();
+        Solution {
             radiosity,
             irradiance,
             error_bound: error_bound(report.residual, norm),
             report,
             norm,
-            closure: Closure::test(self.patches, self.visibility, &sums),
+            rows: rows.len(),
+            closure: Closure::test(self.patches, self.visibility, &rows),
             form_factors: 0,
             rays: 0,
             assembly_seconds: 0.0,
-            solve_seconds: start.elapsed().as_secs_f64(),
-        })
+            solve_seconds: 0.0,
+        }
     }
 }
 
-/// (i, Σ_j F_ij) for some rows.
-fn row_sums(operator: &impl Rows, rows: &[usize]) -> Vec<(usize, f64)> {
-    let sums = rows.par_iter().map_init(Vec::new, |buffer, &i| (i, operator.row(i, buffer).abs_sum()));
-    sums.collect()
-}
+/// Rows of F whose sums are computed where F is not stored: the cost of as many shots.
+const SAMPLED_ROWS: usize = 64;
 
 /// `count` numbers spread evenly over 0 … n − 1; all of them when there are fewer.
 fn spread(n: usize, count: usize) -> Vec<usize> {
     let count = count.min(n);
     (0..count).map(|k| (2 * k + 1) * n / (2 * count)).collect()
-}
-
-/// H = F u: (B − E)/ρ, and by a row of F where a channel of ρ is 0.
-fn irradiance<V: Value, F: Rows>(system: System<'_, V, F>, u: &[V], radiosity: &[V]) -> Vec<V> {
-    let black = |i: usize| system.coefficient[i].channels().contains(&0.0);
-    let patches = (0..u.len()).into_par_iter().map_init(Vec::new, |buffer, i| match black(i) {
-        true => system.operator.row(i, buffer).dot(u),
-        false => (radiosity[i] - system.source[i]) / system.coefficient[i],
-    });
-    patches.collect()
-}
-
-/// The direct solver as a relaxation of one sweep.
-struct Solved<'a, V, F> {
-    system: System<'a, V, F>,
-    solution: Vec<V>,
-}
-
-impl<'a, V: Value, F: Rows> Solved<'a, V, F> {
-    fn new(system: System<'a, V, F>) -> Self {
-        Self { system, solution: vec![V::splat(0.0); system.dim()] }
-    }
-}
-
-impl<V: Value, F: Rows> Relaxation<V> for Solved<'_, V, F> {
-    fn sweep(&mut self) -> f64 {
-        self.solution = direct::solve(self.system);
-        max_norm(&self.residual())
-    }
-    fn solution(&self) -> Vec<V> {
-        self.solution.clone()
-    }
-    fn residual(&self) -> Vec<V> {
-        self.system.residual(&self.solution)
-    }
 }

@@ -15,8 +15,9 @@ use radiosity::closure::Closure;
 use radiosity::form_factor::{FormFactors, lambert::point_to_polygon};
 use radiosity::patches::Patches;
 use radiosity::polygon::Polygon;
-use radiosity::scene::Scene;
+use radiosity::scene::{Scene, cut};
 use radiosity::solve::{Method, Options, Solution, Solver, Unobserved, solve};
+use radiosity::visibility::Visibility;
 use std::f64::consts::PI;
 
 #[track_caller]
@@ -299,6 +300,43 @@ fn touching_patches_and_blocks_on_the_floor_leak_nothing() {
 }
 
 #[test]
+fn a_mesh_that_is_planar_only_to_the_digits_of_its_file_is_a_furnace_all_the_same() {
+    // A cube in no particular position, its corners rounded as a file rounds them, its faces cut like a mesh.
+    let turn = glam::DQuat::from_euler(glam::EulerRot::XYZ, 0.3, 1.2, -0.8);
+    for (decimals, cells) in [(4, 1), (4, 3), (6, 1), (6, 2), (6, 5), (8, 2), (10, 3), (15, 2)] {
+        let rounded =
+            |v: DVec3| (turn * v).map(|c| (c * 10_f64.powi(decimals)).round() / 10_f64.powi(decimals));
+        let cell = |wall: &Polygon, i: usize, j: usize| {
+            let at =
+                |i: usize, j: usize| rounded(wall.point(i as f64 / cells as f64, j as f64 / cells as f64));
+            cut(&[at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]).unwrap()
+        };
+        let walls = walls(DVec3::ZERO, DVec3::ONE, false);
+        let cells = (0..cells * cells).map(|k| (k / cells, k % cells));
+        let polygons =
+            walls.iter().flat_map(|w| cells.clone().flat_map(move |(i, j)| cell(w, i, j))).collect();
+        let mut furnace: Scene<f64> = scene([polygons], 0.5);
+        furnace.surfaces[0].emission = 1.0;
+        let (patches, solution) = solved(&furnace, 0.34, Method::Galerkin, 1e-4);
+        let error = distance(&solution.radiosity, &vec![2.0; patches.len()]);
+        assert!(error < 3e-3, "{decimals} decimals: {error:e}, {:?}", solution.closure);
+    }
+}
+
+#[test]
+fn a_sheet_of_two_faces_is_seen_from_the_side_that_faces() {
+    let sheet = parallelogram(p(0.0, 0.0, 1.0), DVec3::X, DVec3::Y);
+    let back = parallelogram(p(0.0, 0.0, 1.0), DVec3::Y, DVec3::X);
+    for order in [[sheet.clone(), back.clone()], [back, sheet]] {
+        let visibility = Visibility::new(&order);
+        for (origin, direction) in [(p(0.3, 0.6, 0.0), DVec3::Z), (p(0.3, 0.6, 2.0), -DVec3::Z)] {
+            let hit = visibility.nearest(origin, direction).unwrap();
+            assert!(order[hit.polygon as usize].normal().dot(direction) < 0.0);
+        }
+    }
+}
+
+#[test]
 fn the_same_digits_for_any_number_of_threads_and_any_unit() {
     let room = |scale: f64| {
         let room = walls(DVec3::ZERO, scale * p(4.0, 3.0, 2.5), false).to_vec();
@@ -316,7 +354,7 @@ fn the_same_digits_for_any_number_of_threads_and_any_unit() {
             solve(&patches, &visibility(&scene), &options, &mut Unobserved).unwrap().radiosity
         })
     };
-    for solver in [Solver::GaussSeidel, Solver::Southwell, Solver::Gmres] {
+    for solver in [Solver::GaussSeidel, Solver::Southwell, Solver::Gmres, Solver::Direct] {
         let one = on_threads(1, 1.0, solver);
         assert_eq!(one, on_threads(2, 1.0, solver), "{solver:?}");
         assert_eq!(one, on_threads(5, 1.0, solver), "{solver:?}");

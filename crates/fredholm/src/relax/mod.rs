@@ -65,6 +65,8 @@ pub enum Outcome {
     Converged,
     /// The sweeps were used up.
     OutOfSweeps,
+    /// The method takes the residual for small enough, time and again, and it is not: rounding lets it fall no further.
+    Stalled,
     /// The residual is no longer finite, or grew a thousand times over the smallest: ρF has a spectral radius over 1.
     Diverged,
     /// The observer asked to stop.
@@ -75,6 +77,10 @@ pub enum Outcome {
 /// times before they settle on convergent systems; a hundredfold would do, a thousandfold is beyond doubt.
 const DIVERGENCE: f64 = 1e3;
 
+/// How often a method may take its residual for small enough when it is not. Gauss–Seidel, whose own norm is of
+/// residuals on its way, is right after one sweep more; a dozen is no accident.
+const PATIENCE: usize = 12;
+
 /// Sweeps until `stop`, calling `observe(sweep, norm, relaxation)` after each one; it says whether to go on.
 pub fn relax<V: Value>(
     relaxation: &mut dyn Relaxation<V>,
@@ -82,18 +88,26 @@ pub fn relax<V: Value>(
     mut observe: impl FnMut(usize, f64, &dyn Relaxation<V>) -> bool,
 ) -> Report {
     let (mut residuals, mut smallest) = (Vec::new(), f64::INFINITY);
+    let mut mistaken = 0;
     let outcome = loop {
         // The method's own norm may be of another moment or carry rounding: the residual itself decides.
         let last = residuals.last().copied().unwrap_or(0.0);
-        if last <= stop.residual && max_norm(&relaxation.residual()) <= stop.residual {
-            break Outcome::Converged;
+        if last <= stop.residual {
+            if max_norm(&relaxation.residual()) <= stop.residual {
+                break Outcome::Converged;
+            }
+            mistaken += 1;
+        }
+        if mistaken > PATIENCE {
+            break Outcome::Stalled;
         }
         if residuals.len() == stop.sweeps {
             break Outcome::OutOfSweeps;
         }
         let norm = relaxation.sweep();
         residuals.push(norm);
-        smallest = smallest.min(norm);
+        // What is below the rounding of the first residual says nothing.
+        smallest = smallest.min(norm).max(f64::EPSILON * residuals[0]);
         if !norm.is_finite() || norm > DIVERGENCE * smallest {
             break Outcome::Diverged;
         }

@@ -18,6 +18,7 @@ pub struct Southwell<'a, V, F> {
     ambient: bool,
     solution: Vec<V>,
     residual: Vec<V>,
+    gathered: Vec<V>,
     buffer: Vec<f64>,
 }
 
@@ -31,6 +32,7 @@ impl<'a, V: Value, F: Columns> Southwell<'a, V, F> {
             ambient: false,
             solution: vec![V::splat(0.0); system.source.len()],
             residual: system.source.to_vec(),
+            gathered: vec![V::splat(0.0); system.source.len()],
             buffer: Vec::new(),
         }
     }
@@ -39,6 +41,11 @@ impl<'a, V: Value, F: Columns> Southwell<'a, V, F> {
     pub fn with_ambient(mut self) -> Self {
         self.ambient = true;
         self
+    }
+
+    /// F u, carried along with the residual: what each unknown has gathered.
+    pub fn gathered(&self) -> &[V] {
+        &self.gathered
     }
 
     /// The unknown with the largest weighted residual, the first of equals; a NaN is chosen at once.
@@ -66,9 +73,11 @@ impl<V: Value, F: Columns> Relaxation<V> for Southwell<'_, V, F> {
         let column = self.system.operator.column(i, &mut self.buffer);
         let step = step(self.residual[i], self.system.coefficient[i], column.get(i));
         self.solution[i] += step;
-        let rho = self.system.coefficient;
-        for (j, (r, entry)) in self.residual.iter_mut().zip(column.iter()).enumerate() {
-            *r += rho[j] * step * entry;
+        let receivers = self.residual.iter_mut().zip(&mut self.gathered).zip(self.system.coefficient);
+        for (((r, gathered), rho), entry) in receivers.zip(column.iter()) {
+            let received = step * entry;
+            *gathered += received;
+            *r += *rho * received;
         }
         self.residual[i] = V::splat(0.0);
         max_norm(&self.residual)

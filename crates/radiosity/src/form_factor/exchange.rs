@@ -78,7 +78,7 @@ impl Exchange {
             self.adaptive(part, inner, coarse, self.tolerance * scale, DEEPEST)
         };
         match side_of(inner, outer) {
-            Side::Across => outer.in_front_of(inner).map(|part| integral(&part)).sum(),
+            Side::Across => outer.in_front_of(inner).iter().map(integral).sum(),
             Side::Before => integral(outer),
             Side::Behind => 0.0,
         }
@@ -113,10 +113,10 @@ impl Exchange {
 const FEW: f64 = 0.02;
 const MANY: f64 = 3e-4;
 
-/// The distance, in diameters, from which an error of `constant` / distance^`order` meets the tolerance. Nearer than
-/// 1.2 nothing was measured, and patches may touch.
+/// The distance, in diameters, from which an error of `constant` / distance^`order` meets the tolerance. Nearer than 4/3
+/// triangles may touch, whose corners are up to 2/3 of the diameter from their centroids.
 fn reach(constant: f64, order: i32, tolerance: f64) -> f64 {
-    (constant / tolerance).powf(1.0 / f64::from(order)).max(1.2)
+    (constant / tolerance).powf(1.0 / f64::from(order)).max(1.35)
 }
 
 /// Cuts in four, at most: at an edge that two patches share, a depth of 12 leaves 1/4096 of it.

@@ -74,6 +74,13 @@ pub(super) fn visible_part(
         }
     };
     draw(&mut look, FIRST);
+    // Where only slivers of the two face each other it takes longer to find a ray between them.
+    for _ in 0..MOST / FIRST {
+        if look.rays > 0 {
+            break;
+        }
+        draw(&mut look, FIRST);
+    }
     let needed = look.needed(weight);
     draw(&mut look, needed - FIRST);
     rays.add(look.rays);

@@ -1,12 +1,12 @@
 //! H(x) = Σ_j E_j F_j(x) V_j(x): the light that reaches a point straight from the lamps.
 
 use crate::form_factor::lambert::point_to_polygon;
+use crate::kernel::{SurfacePoint, unoccluded};
 use crate::polygon::Polygon;
 use crate::reconstruct::{Site, lattice};
 use crate::scene::Scene;
 use crate::visibility::Visibility;
 use fredholm::value::Value;
-use glam::DVec3;
 
 /// The polygons that emit, each whole.
 pub struct Lamps<'a, V> {
@@ -65,10 +65,12 @@ impl<'a, V: Value> Lamps<'a, V> {
     }
 
     fn share_of_rays(&self, site: &Site, lamp: &Polygon, rays: impl Iterator<Item = (f64, f64)>) -> f64 {
+        let x = SurfacePoint { position: site.point, normal: site.normal };
         let (mut all, mut arrived) = (0.0, 0.0);
         for (s, t) in rays {
             let source = lamp.point(s, t);
-            let weight = kernel(site.point, site.normal, source, lamp.normal());
+            let y = SurfacePoint { position: source, normal: lamp.normal() };
+            let weight = unoccluded(&x, &y) * lamp.density(s, t);
             all += weight;
             if weight > 0.0 && self.visibility.unoccluded(site.point, source) {
                 arrived += weight;
@@ -79,18 +81,12 @@ impl<'a, V: Value> Lamps<'a, V> {
     }
 }
 
-/// cosθ cosθ′ / r², the Lambertian kernel up to π; 0 below either horizon.
-fn kernel(x: DVec3, n: DVec3, y: DVec3, m: DVec3) -> f64 {
-    let r = y - x;
-    let squared = r.length_squared();
-    r.dot(n).max(0.0) * (-r.dot(m)).max(0.0) / (squared * squared)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::reconstruct::Rotation;
     use crate::scene::Surface;
+    use glam::DVec3;
 
     fn square(z: f64, half: f64) -> Polygon {
         let p = |x, y| DVec3::new(x, y, z);
@@ -113,8 +109,7 @@ mod tests {
     }
 
     fn irradiance(scene: &Scene<f64>, x: DVec3, rotation: Rotation) -> f64 {
-        let polygons: Vec<_> = scene.surfaces.iter().flat_map(|s| s.polygons.clone()).collect();
-        let visibility = Visibility::new(&polygons);
+        let visibility = Visibility::new(&scene.polygons());
         let site = Site { point: x, normal: DVec3::Z, rotation };
         Lamps::new(scene, &visibility).unwrap().irradiance(&site)
     }
@@ -136,6 +131,29 @@ mod tests {
             let share = irradiance(&scene, DVec3::ZERO, Rotation::of(index)) / whole;
             assert!((share - 0.5).abs() < 0.05, "{share}");
             assert_eq!(irradiance(&scene, DVec3::new(2.0, 0.0, 0.0), Rotation::of(index)), 0.0);
+        }
+    }
+
+    #[test]
+    fn a_penumbra_of_a_lamp_that_is_no_parallelogram_weighs_it_by_area() {
+        // A trapezoid narrow for x > 0, where it is hidden: Lambert's formula on the other part is what arrives.
+        let p = |x, y, z| DVec3::new(x, y, z);
+        let lamp = |x0: f64, x1: f64| {
+            let half = |x: f64| 0.55 - x;
+            Polygon::quadrilateral(
+                p(x0, -half(x0), 1.0),
+                p(x0, half(x0), 1.0),
+                p(x1, half(x1), 1.0),
+                p(x1, -half(x1), 1.0),
+            )
+        };
+        let shade =
+            Polygon::quadrilateral(p(0.0, -5.0, 0.5), p(5.0, -5.0, 0.5), p(5.0, 5.0, 0.5), p(0.0, 5.0, 0.5));
+        let scene = scene(lamp(-0.5, 0.5), Some(shade));
+        let expected = 10.0 * point_to_polygon(DVec3::ZERO, DVec3::Z, &lamp(-0.5, 0.0));
+        for index in 0..20 {
+            let got = irradiance(&scene, DVec3::ZERO, Rotation::of(index));
+            assert!((got / expected - 1.0).abs() < 0.05, "{got} for {expected}");
         }
     }
 

@@ -28,7 +28,7 @@ pub fn final_picture<V: Colour>(
     radiosity: &[V],
     progress: &(dyn Fn(usize) + Sync),
 ) -> Picture {
-    let polygons: Vec<Polygon> = scene.surfaces.iter().flat_map(|s| s.polygons.iter().cloned()).collect();
+    let polygons = scene.polygons();
     let rays = Rays::new(&view.camera, view.width, view.height);
     let shape = (rays, view.width, view.height, view.samples);
     let fragments = Fragments::new(shape, &polygons, visibility, |polygon, _| polygon);
@@ -142,7 +142,7 @@ mod tests {
 
     fn picture_of(scene: &Scene<f64>, camera: Camera) -> Picture {
         let patches = Patches::new(scene, 0.5).unwrap();
-        let polygons: Vec<Polygon> = scene.surfaces.iter().flat_map(|s| s.polygons.clone()).collect();
+        let polygons = scene.polygons();
         let view = View { camera, width: 16, height: 16, samples: 4, gather: 64 };
         let rows = AtomicUsize::new(0);
         let picture = final_picture(

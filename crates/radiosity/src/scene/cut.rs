@@ -8,13 +8,18 @@ use glam::{DVec2, DVec3};
 /// Less would refuse coordinates written with five digits; more would let light through the seams.
 const FLATNESS: f64 = 1e-4;
 
+/// How far off the plane a quadrilateral may be and still stay whole: the rounding of its corners. Rays take a point
+/// within 10⁻⁹ of the scene for one on the polygon, and from further off the polygon would shade itself.
+const ROUNDING: f64 = 1e-12;
+
 /// What counts as zero beside a face of diameter 1. Coordinates written with six digits are 10⁻⁶ uncertain, so
 /// that a smaller distance between corners means nothing; a larger one may be a real edge (1 mm of 1 km).
 const NOTHING: f64 = 1e-6;
 
 /// Cuts a planar face into convex polygons, in the order of its corners; front is where they run counter-clockwise.
 ///
-/// A triangle or a convex quadrilateral stays whole, all else becomes triangles. Lengths are in metres, but only
+/// A triangle or a convex quadrilateral stays whole, all else becomes triangles; so does a quadrilateral whose
+/// corners are in one plane only to the digits that a file has. Lengths are in metres, but only
 /// their ratios count: a face is judged as if its diameter were 1.
 ///
 /// # Errors
@@ -38,7 +43,9 @@ pub fn cut(corners: &[DVec3]) -> Result<Vec<Polygon>, Problem> {
     check_simple(&outline)?;
     Ok(match *corners {
         [a, b, c] => vec![Polygon::triangle(a, b, c)],
-        [a, b, c, d] if is_convex(&outline) => vec![Polygon::quadrilateral(a, b, c, d)],
+        [a, b, c, d] if is_convex(&outline) && bulge(&shape, normal) <= ROUNDING => {
+            vec![Polygon::quadrilateral(a, b, c, d)]
+        }
         _ => triangles(&outline)
             .map(|[i, j, k]| Polygon::triangle(corners[i], corners[j], corners[k]))
             .collect(),
@@ -79,9 +86,14 @@ fn normal(shape: &[DVec3], axis: DVec3) -> Result<DVec3, Problem> {
     }
 }
 
-fn check_planar(shape: &[DVec3], normal: DVec3, diameter: f64) -> Result<(), Problem> {
+/// The largest distance of a corner from the mean plane.
+fn bulge(shape: &[DVec3], normal: DVec3) -> f64 {
     let centre = shape.iter().sum::<DVec3>() / shape.len() as f64;
-    let relative = shape.iter().map(|&corner| (corner - centre).dot(normal).abs()).fold(0.0, f64::max);
+    shape.iter().map(|&corner| (corner - centre).dot(normal).abs()).fold(0.0, f64::max)
+}
+
+fn check_planar(shape: &[DVec3], normal: DVec3, diameter: f64) -> Result<(), Problem> {
+    let relative = bulge(shape, normal);
     if relative > FLATNESS {
         return Err(Problem::NotPlanar { metres: relative * diameter, relative, tolerated: FLATNESS });
     }

@@ -51,6 +51,13 @@ pub struct Surface<V> {
     pub polygons: Vec<Polygon>,
 }
 
+impl<V> Scene<V> {
+    /// All polygons, surface by surface: their numbers are those that patches and visibility name them by.
+    pub fn polygons(&self) -> Vec<Polygon> {
+        self.surfaces.iter().flat_map(|surface| surface.polygons.iter().cloned()).collect()
+    }
+}
+
 impl<V: Value> Surface<V> {
     /// The area of all polygons, in m².
     pub fn area(&self) -> f64 {

@@ -102,8 +102,8 @@ impl Visibility {
     /// Whether it is proved that no polygon cuts any segment from a to b; false means "not known".
     ///
     /// The segments fill the convex hull of a and b, so a plane with the hull on one side and a polygon on the other
-    /// is the proof. The two must be clipped to lie in front of each other; then what lies behind either, or only
-    /// touches its plane, is out of the way too. What only touches the hull does not count, so segments on the
+    /// is the proof. Spoken of are segments along which light goes, in front of both: what lies behind either, or only
+    /// touches its plane, is out of their way too. What only touches the hull does not count, so segments on the
     /// hull's boundary, which carry no light, are not spoken of.
     pub fn certainly_clear(&self, a: &Polygon, b: &Polygon) -> bool {
         if self.occluders.is_empty() {

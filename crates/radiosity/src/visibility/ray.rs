@@ -140,6 +140,19 @@ pub(super) struct Nearest<'a> {
     pub(super) found: Option<(u32, f64)>,
 }
 
+impl Nearest<'_> {
+    /// Whether one find is nearer than another; of two in one place, as the faces of a sheet are, the one whose front
+    /// the ray meets.
+    fn comes_before(&self, (polygon, at): (u32, f64), (other, best): (u32, f64)) -> bool {
+        let meets_front = |polygon: u32| self.facets[polygon as usize].height_of(self.s) > 0.0;
+        let together = (at - best).abs() <= ONE_PLACE;
+        if together && meets_front(polygon) != meets_front(other) { meets_front(polygon) } else { at < best }
+    }
+}
+
+/// Parameters of a ray closer than this are of one place: some roundings of a ray as long as the scene.
+const ONE_PLACE: f64 = 1e-14;
+
 impl Query for Nearest<'_> {
     #[inline(always)]
     fn select(&self, node: &Node) -> u32 {
@@ -151,7 +164,7 @@ impl Query for Nearest<'_> {
         for lane in lanes(packet.candidates(&self.ray).possible) {
             let polygon = packet.polygons[lane];
             let Some(at) = self.facets[polygon as usize].cut(self.s, self.t) else { continue };
-            if self.found.is_none_or(|(_, best)| at < best) {
+            if self.found.is_none_or(|best| self.comes_before((polygon, at), best)) {
                 self.found = Some((polygon, at));
                 self.ray.end = f32x8::splat(at as f32 * (1.0 + 4.0 * f32::EPSILON));
             }

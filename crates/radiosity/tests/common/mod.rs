@@ -54,8 +54,7 @@ pub fn scene<V: Value>(groups: impl IntoIterator<Item = Vec<Polygon>>, reflectan
 }
 
 pub fn visibility<V>(scene: &Scene<V>) -> Visibility {
-    let polygons: Vec<Polygon> = scene.surfaces.iter().flat_map(|s| s.polygons.iter().cloned()).collect();
-    Visibility::new(&polygons)
+    Visibility::new(&scene.polygons())
 }
 
 /// The inside of the unit sphere as `rows` rows of planar trapezoids, triangles at the poles, corners on the sphere.
