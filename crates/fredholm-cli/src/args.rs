@@ -22,6 +22,22 @@ pub enum Command {
 }
 
 const EXAMPLES: &str = "\
+A face has a front, from which its corners run counter-clockwise; it emits and reflects from there
+and blocks light from both sides. In an MTL file Kd is the reflectance and Ke the radiance emitted,
+in W/(m² sr), so that the surface sends out π Ke W/m². A scene file, of which only unit and meshes
+must be there:
+
+  unit = \"mm\"                          # of the meshes and of all lengths below
+  meshes = [\"room.obj\"]
+  [materials.lamp]                     # as named by usemtl
+  radiance = [30, 28, 20]              # or emission, in W/m²; reflectance is a number or three
+  [camera]                             # found by itself if left out
+  position = [8500, 500, 1700]
+  target = [2200, 4600, 1600]
+  [solve]                              # patch_size, method, solver, accuracy, tolerance
+  patch_size = 250
+
+\
 Examples:
   fredholm radiosity                                  the Cornell box, as cornell-box.png
   fredholm radiosity room.toml --patch-size 0.1       a scene of yours, in patches of 10 cm
@@ -214,14 +230,18 @@ pub struct Size {
     pub height: usize,
 }
 
-/// The longest side of a picture: 16384² pixels take some 6 GB before they are written.
-const LONGEST: usize = 1 << 14;
+/// The longest side of a picture, and the most pixels: 8192 × 8192 of them take some 4 GB while they are drawn.
+const LONGEST: usize = 1 << 16;
+const MOST_PIXELS: usize = 1 << 26;
 
 fn size(text: &str) -> Result<Size, String> {
     let side = |side: &str| side.parse().ok().filter(|side| (1..=LONGEST).contains(side));
     text.split_once(['x', 'X'])
         .and_then(|(width, height)| Some(Size { width: side(width)?, height: side(height)? }))
-        .ok_or_else(|| format!("write width and height as 640x480, each from 1 to {LONGEST}"))
+        .filter(|size| size.width * size.height <= MOST_PIXELS)
+        .ok_or_else(|| {
+            format!("write width and height as 640x480, not more than {MOST_PIXELS} pixels in all")
+        })
 }
 
 fn positive(text: &str) -> Result<f64, String> {

@@ -56,13 +56,36 @@ impl Frames {
     }
 
     /// Writes the frame of an iteration, if it is its turn.
-    pub fn record<V: Colour>(&mut self, iteration: usize, relaxation: &dyn Relaxation<V>) -> Result<()> {
-        if !iteration.is_multiple_of(self.every) {
-            return Ok(());
+    pub fn record<V: Colour>(
+        &mut self,
+        iteration: usize,
+        patches: &Patches<V>,
+        relaxation: &dyn Relaxation<V>,
+    ) -> Result<()> {
+        match iteration.is_multiple_of(self.every) {
+            true => self.write(iteration, patches, &relaxation.preview()),
+            false => Ok(()),
         }
+    }
+
+    /// Writes the frame of the solution, unless the last iteration had its turn.
+    pub fn finish<V: Colour>(
+        &mut self,
+        iterations: usize,
+        patches: &Patches<V>,
+        radiosity: &[V],
+    ) -> Result<()> {
+        match iterations.is_multiple_of(self.every) && iterations > 0 {
+            true => Ok(()),
+            false => self.write(iterations, patches, radiosity),
+        }
+    }
+
+    fn write<V: Colour>(&mut self, iteration: usize, patches: &Patches<V>, radiosity: &[V]) -> Result<()> {
         let start = Instant::now();
-        let picture = self.preview.draw(&relaxation.preview());
-        let image = self.exposure.map_or_else(|| map(&picture), |exposure| picture.develop(exposure));
+        let picture = self.preview.draw(radiosity);
+        let exposed = |exposure| picture.develop(exposure);
+        let image = self.exposure.map_or_else(|| map(&picture, patches, radiosity), exposed);
         self.files.push(write_png(self.folder.frame(iteration)?, &image)?);
         self.recording += start.elapsed().as_secs_f64();
         Ok(())

@@ -79,7 +79,12 @@ pub fn write_png(output: Output, image: &RgbImage) -> Result<PathBuf> {
 pub fn write_field<V: Value>(output: Output, field: &Field<'_, V>) -> Result<PathBuf> {
     let is_npz = output.path().extension().is_some_and(|extension| extension.eq_ignore_ascii_case("npz"));
     match is_npz {
-        true => output.write(|out| write_npz(field, out)),
+        true => {
+            // The archive is made whole first: its writer, dropped on a full disk, complains on its own.
+            let mut bytes = Cursor::new(Vec::new());
+            write_npz(field, &mut bytes)?;
+            output.write(|out| out.write_all(bytes.get_ref()))
+        }
         false => output.write(|out| -> io::Result<()> { write_csv(field, out) }),
     }
 }

@@ -7,8 +7,8 @@ use crate::terminal::bar;
 use crate::timing::Seconds;
 use anyhow::Result;
 use fredholm::relax::Relaxation;
-use fredholm::value::Value;
 use indicatif::ProgressBar;
+use radiosity::patches::Patches;
 use radiosity::render::Colour;
 use radiosity::solve::{Observer, Solution};
 use std::path::PathBuf;
@@ -17,7 +17,8 @@ use std::path::PathBuf;
 const STEPS: f64 = 1000.0;
 
 /// Watches the solver: moves its bars and records its frames.
-pub struct Watcher {
+pub struct Watcher<'a, V> {
+    patches: &'a Patches<V>,
     assembly: ProgressBar,
     relaxation: ProgressBar,
     first: Option<f64>,
@@ -25,18 +26,25 @@ pub struct Watcher {
     failed: Option<anyhow::Error>,
 }
 
-impl Watcher {
-    /// A watcher over so many patches.
-    pub fn new(settings: &Settings, patches: usize, frames: Option<Frames>) -> Self {
-        let n = patches as u64;
+impl<'a, V: Colour> Watcher<'a, V> {
+    /// A watcher over these patches.
+    pub fn new(settings: &Settings, patches: &'a Patches<V>, frames: Option<Frames>) -> Self {
+        let n = patches.len() as u64;
         // Reciprocity, A_i F_ij = A_j F_ji, halves the work where patches are tested as wholes or both as points.
         let entries = if settings.method == Method::Collocation { n * n } else { n * (n + 1) / 2 };
         let relaxation = bar("relaxation", STEPS as u64).with_message(name(&settings.solver));
-        Self { assembly: bar("form factors", entries), relaxation, first: None, frames, failed: None }
+        Self {
+            patches,
+            assembly: bar("form factors", entries),
+            relaxation,
+            first: None,
+            frames,
+            failed: None,
+        }
     }
 
     /// The files of the frames, and the time of what was watched.
-    pub fn finish<V>(self, solution: &Solution<V>, seconds: &mut Seconds) -> Result<Vec<PathBuf>> {
+    pub fn finish(self, solution: &Solution<V>, seconds: &mut Seconds) -> Result<Vec<PathBuf>> {
         self.assembly.finish_and_clear();
         self.relaxation.finish_and_clear();
         if let Some(error) = self.failed {
@@ -44,14 +52,15 @@ impl Watcher {
         }
         seconds.form_factors = solution.assembly_seconds;
         seconds.solve = solution.solve_seconds;
-        let Some(frames) = self.frames else { return Ok(Vec::new()) };
-        seconds.frames = frames.preparing + frames.recording;
+        let Some(mut frames) = self.frames else { return Ok(Vec::new()) };
         seconds.solve -= frames.recording;
+        frames.finish(solution.report.residuals.len(), self.patches, &solution.radiosity)?;
+        seconds.frames = frames.preparing + frames.recording;
         Ok(frames.files)
     }
 }
 
-impl<V: Colour + Value> Observer<V> for Watcher {
+impl<V: Colour> Observer<V> for Watcher<'_, V> {
     fn assembled(&self, entries: usize) {
         self.assembly.inc(entries as u64);
     }
@@ -65,7 +74,7 @@ impl<V: Colour + Value> Observer<V> for Watcher {
             self.relaxation.set_message(format!("iteration {iteration}, residual {norm:.1e} W/m²"));
         }
         let Some(frames) = &mut self.frames else { return true };
-        self.failed = frames.record(iteration, relaxation).err();
+        self.failed = frames.record(iteration, self.patches, relaxation).err();
         self.failed.is_none()
     }
 }

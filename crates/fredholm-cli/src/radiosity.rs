@@ -68,7 +68,7 @@ fn walk<V: Colour>(
 
     let domain = Domain::new(scene, settings.size(scene), &mut seconds)?;
     let frames = frames.map(|folder| Frames::new(folder, args, &settings, &domain));
-    let mut watcher = Watcher::new(&settings, domain.patches.len(), frames);
+    let mut watcher = Watcher::new(&settings, &domain.patches, frames);
     let options = settings.options(domain.patches.len());
     let solution = solve(&domain.patches, &domain.visibility, &options, &mut watcher)?;
     let mut files = watcher.finish(&solution, &mut seconds)?;
@@ -79,6 +79,9 @@ fn walk<V: Colour>(
     }
     if let Some(output) = patches {
         files.push(timed(&mut seconds.write, || write_patches(output, &domain, &solution))?);
+    }
+    if let Some(ReportTo::File(output)) = &report {
+        files.push(output.path().to_owned());
     }
     seconds.total = start.elapsed().as_secs_f64();
     tell(&Report::new(&domain, &settings, &solution, seconds, files), report)?;

@@ -46,6 +46,10 @@ pub struct Report {
     pub closure_rows: Option<usize>,
     /// The share of the light that meets nothing; none in a closed scene.
     pub escaping: Option<f64>,
+    /// The standard error that was asked for of a row sum.
+    pub accuracy: f64,
+    /// Whether no light at all reaches any surface.
+    pub dark: bool,
     /// Form factors computed.
     pub form_factors: u64,
     /// Rays cast for them.
@@ -130,6 +134,8 @@ impl Report {
             closure_defect,
             closure_rows,
             escaping,
+            accuracy: options.accuracy,
+            dark: solution.irradiance.iter().all(|h| h.magnitude() == 0.0),
             form_factors: solution.form_factors,
             rays: solution.rays,
             seconds,

@@ -29,11 +29,19 @@ impl Closure {
     /// From the sums of some `rows` of F; which rows they are is given with them.
     pub fn test<V: Value>(patches: &Patches<V>, visibility: &Visibility, rows: &[(usize, f64)]) -> Self {
         let sights: Vec<Sight> = rows.par_iter().map(|&(i, _)| Sight::from(patches, visibility, i)).collect();
-        let escaped: u32 = sights.iter().map(|sight| sight.escaped).sum();
+        // A patch lying on another's front sees past it, and the other hides all: it is out of the enclosure.
+        let buried = |sum: f64, sight: &Sight| sum == 0.0 && sight.escaped == RAYS;
+        let all_buried = rows.iter().zip(&sights).all(|((_, sum), sight)| buried(*sum, sight));
+        let escaped: u32 = rows
+            .iter()
+            .zip(&sights)
+            .filter(|((_, sum), sight)| all_buried || !buried(*sum, sight))
+            .map(|(_, sight)| sight.escaped)
+            .sum();
         if escaped > 0 {
             return Self::Open { escaping: f64::from(escaped) / (sights.len() as f64 * f64::from(RAYS)) };
         }
-        let whole = rows.iter().zip(&sights).filter(|(_, sight)| sight.backs == 0);
+        let whole = rows.iter().zip(&sights).filter(|(_, sight)| sight.backs == 0 && sight.escaped == 0);
         let defects = whole.map(|((_, sum), _)| (sum - 1.0).abs());
         let (defect, rows) = defects.fold((0.0_f64, 0), |(worst, n), defect| (worst.max(defect), n + 1));
         Self::Closed { defect, rows }

@@ -26,11 +26,13 @@ const INSIDE_ANGLE: f64 = 75.0 * PI / 180.0;
 impl Camera {
     /// A camera that shows a scene well, found by looking: at open rooms from in front, at closed ones from inside or
     /// through the backs of their walls, which do not hide anything, at objects from above and aside.
-    /// The same scene always gets the same camera; an empty one is looked at from anywhere.
-    pub fn automatic(polygons: &[Polygon], visibility: &Visibility) -> Self {
+    /// The same scene always gets the same camera; an empty one is looked at from anywhere. `aspect` is the width of the
+    /// picture over its height.
+    pub fn automatic(polygons: &[Polygon], visibility: &Visibility, aspect: f64) -> Self {
         let bounds = Bounds::of(polygons);
         let up = upward(polygons, &bounds);
-        let candidates: Vec<Camera> = outside(polygons, &bounds, up).chain(inside(&bounds, up)).collect();
+        let candidates: Vec<Camera> =
+            outside(polygons, &bounds, up, aspect).chain(inside(&bounds, up)).collect();
         let scores: Vec<f64> = candidates.par_iter().map(|c| score(c, polygons, visibility)).collect();
         let best = (1..scores.len()).fold(0, |best, k| if scores[k] > scores[best] { k } else { best });
         candidates[best]
@@ -81,19 +83,19 @@ fn azimuths() -> impl Iterator<Item = f64> {
 }
 
 /// Cameras that look at the middle from outside, just so far away that all vertices are in the picture.
-fn outside(polygons: &[Polygon], bounds: &Bounds, up: DVec3) -> impl Iterator<Item = Camera> {
+fn outside(polygons: &[Polygon], bounds: &Bounds, up: DVec3, aspect: f64) -> impl Iterator<Item = Camera> {
     let target = bounds.centre();
     let whole = 0.5 * bounds.diagonal() / (0.5 * OUTSIDE_ANGLE).sin();
     ELEVATIONS.into_iter().flat_map(move |e| azimuths().map(move |a| direction(up, a, e.to_radians()))).map(
         move |from| {
-            let distance = distance_to_fit(polygons, target, from, up).unwrap_or(whole);
+            let distance = distance_to_fit(polygons, target, from, up, aspect).unwrap_or(whole);
             Camera { position: target + from * distance, target, up, vertical_angle: OUTSIDE_ANGLE }
         },
     )
 }
 
-/// How far from the target, towards `from`, every vertex is within a square picture and its margin.
-fn distance_to_fit(polygons: &[Polygon], target: DVec3, from: DVec3, up: DVec3) -> Option<f64> {
+/// How far from the target, towards `from`, every vertex is within the picture and its margin.
+fn distance_to_fit(polygons: &[Polygon], target: DVec3, from: DVec3, up: DVec3, aspect: f64) -> Option<f64> {
     let right = up.cross(from).normalize();
     let over = from.cross(right);
     let slope = 0.93 * (0.5 * OUTSIDE_ANGLE).tan();
@@ -101,7 +103,7 @@ fn distance_to_fit(polygons: &[Polygon], target: DVec3, from: DVec3, up: DVec3) 
     vertices
         .map(|&v| {
             let v = v - target;
-            v.dot(from) + v.dot(right).abs().max(v.dot(over).abs()) / slope
+            v.dot(from) + (v.dot(right).abs() / aspect).max(v.dot(over).abs()) / slope
         })
         .reduce(f64::max)
 }
@@ -186,7 +188,7 @@ mod tests {
 
     fn seen(polygons: &[Polygon]) -> (Camera, Vec<u32>) {
         let visibility = Visibility::new(polygons);
-        let camera = Camera::automatic(polygons, &visibility);
+        let camera = Camera::automatic(polygons, &visibility, 1.0);
         let rays = Rays::new(&camera, 40, 40);
         let directions = (0..1600).map(|k| rays.direction((k % 40) as f64 + 0.5, (k / 40) as f64 + 0.5));
         let hits = directions.filter_map(|d| first_front(polygons, &visibility, rays.origin(), d));
@@ -227,7 +229,7 @@ mod tests {
 
     #[test]
     fn an_empty_scene_has_a_camera() {
-        let camera = Camera::automatic(&[], &Visibility::new(&[]));
+        let camera = Camera::automatic(&[], &Visibility::new(&[]), 1.0);
         assert!(camera.position.is_finite() && camera.position != camera.target);
     }
 }

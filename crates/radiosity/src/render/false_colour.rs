@@ -1,6 +1,7 @@
 //! A map of numbers: radiosity as a colour, with a scale that says which.
 
-use crate::render::colour::luminance;
+use crate::patches::Patches;
+use crate::render::colour::{Colour, luminance};
 use crate::render::palette::viridis;
 use crate::render::picture::Picture;
 use crate::render::tone::percentile;
@@ -24,20 +25,27 @@ pub struct Scale {
     cut: bool,
 }
 
-/// The shares of the lit pixels below and above the scale: a lamp in sight has the top colour and does not
-/// flatten the room.
+/// The shares of the lit patches below and above the scale.
 const RANGE: (f64, f64) = (0.01, 0.97);
 
 /// A scale has at most this many steps inside its range, and so up to two more; more labels crowd a small picture.
 const STEPS: f64 = 8.0;
 
 impl Scale {
-    /// The scale for a picture: round numbers round the radiosities of all but its darkest and brightest pixels.
-    pub fn automatic(picture: &Picture) -> Self {
-        let lit: Vec<f64> = radiosities(picture).filter(|b| *b > 0.0).collect();
-        let brightest = lit.iter().copied().fold(0.0, f64::max);
+    /// The scale for a scene: round numbers round the radiosities of all but the darkest and brightest patches. Those
+    /// that emit do not count, a lamp or a window has the top colour and does not flatten the room; unless all emit.
+    pub fn automatic<V: Colour>(patches: &Patches<V>, radiosity: &[V]) -> Self {
+        let levels: Vec<f64> = radiosity.iter().map(|b| luminance(b.to_rgb())).collect();
+        let brightest = levels.iter().copied().fold(0.0, f64::max);
+        let lit = |(b, e): (&f64, &V)| (*b > 0.0 && e.magnitude() == 0.0).then_some(*b);
+        let dark: Vec<f64> = levels.iter().zip(&patches.emission).filter_map(lit).collect();
+        Self::around(if dark.is_empty() { levels } else { dark }, brightest)
+    }
+
+    /// The scale for most of these radiosities, of a scene that has brighter ones, up to `brightest`.
+    fn around(lit: Vec<f64>, brightest: f64) -> Self {
         let low = percentile(lit.clone(), RANGE.0).unwrap_or(0.0);
-        let high = percentile(lit, RANGE.1).unwrap_or(1.0);
+        let high = percentile(lit, RANGE.1).filter(|high| *high > 0.0).unwrap_or(1.0);
         Self::covering(low, high, brightest)
     }
 
@@ -194,15 +202,15 @@ mod tests {
     #[test]
     fn a_lamp_is_above_the_scale_and_does_not_stretch_it() {
         let room = || (0..98).map(|k| 1.0 + f64::from(k) / 97.0);
-        let scale = Scale::automatic(&picture(room().chain([500.0, 500.0])));
+        let scale = Scale::around(room().collect(), 500.0);
         assert_eq!((scale.ticks().next(), scale.ticks().last(), scale.cut), (Some(1.0), Some(2.0), true));
-        assert!(!Scale::automatic(&picture(room())).cut);
+        assert!(!Scale::around(room().collect(), 2.0).cut);
     }
 
     #[test]
     fn an_even_picture_and_a_dark_one_have_scales() {
         for level in [5.0, 0.0] {
-            let scale = Scale::automatic(&picture([level; 9]));
+            let scale = Scale::around(vec![level; 9], level);
             assert!(scale.ticks().count() > 1 && scale.ticks().all(f64::is_finite), "{scale:?}");
         }
     }
@@ -210,7 +218,7 @@ mod tests {
     #[test]
     fn the_map_has_the_palette_the_legend_and_black_for_the_unlit() {
         let picture = Picture { width: 2, height: 200, ..picture([1.0, 0.0].repeat(200)) };
-        let scale = Scale::automatic(&picture);
+        let scale = Scale::around(vec![1.0; 9], 1.0);
         let image = false_colour(&picture, &scale, "radiosity, W/m\u{b2}");
         let top = viridis(scale.position(1.0));
         assert_eq!((image.get_pixel(0, MARGIN.1).0, image.get_pixel(1, MARGIN.1)), (top, &UNLIT));

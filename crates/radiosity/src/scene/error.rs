@@ -46,7 +46,7 @@ impl fmt::Display for Place {
 #[derive(Debug, thiserror::Error)]
 pub enum Problem {
     /// A file is missing or may not be read.
-    #[error("cannot read `{}`: {reason}; check its name, which is relative to the file that gives it", file.display())]
+    #[error("cannot read `{}`: {reason}; check its name and kind", file.display())]
     Unreadable {
         /// The file that was asked for.
         file: PathBuf,
