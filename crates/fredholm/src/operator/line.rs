@@ -1,7 +1,6 @@
 //! A row or a column of F, whatever it is stored as: Σ_j F_ij u_j without the solver knowing.
 
 use crate::value::Value;
-use pulp::{Arch, Simd, WithSimd};
 
 /// One row or column of a matrix.
 #[derive(Clone, Copy, Debug)]
@@ -48,37 +47,20 @@ impl<'a> Line<'a> {
 /// spectrum are independent already, and eight sums of 76 channels would not stay in registers.
 fn dot<V: Value, T: Copy + Into<f64>>(line: &[T], u: &[V]) -> V {
     match V::CHANNELS {
-        0..8 => widest(Dot::<8, V, T> { line, u }),
-        _ => widest(Dot::<1, V, T> { line, u }),
+        0..8 => dot_in_lanes::<8, V, T>(line, u),
+        _ => dot_in_lanes::<1, V, T>(line, u),
     }
 }
 
-/// Compiled for each generation of vector units, and run by the widest that this processor has. Products are added as
-/// they are written, not fused: the sum is the same on all of them.
-fn widest<W: WithSimd>(work: W) -> W::Output {
-    Arch::new().dispatch(work)
-}
-
-struct Dot<'a, const LANES: usize, V, T> {
-    line: &'a [T],
-    u: &'a [V],
-}
-
-impl<const LANES: usize, V: Value, T: Copy + Into<f64>> WithSimd for Dot<'_, LANES, V, T> {
-    type Output = V;
-
-    // Inlined or else compiled once only, for the oldest processors.
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> V {
-        let mut sums = [V::splat(0.0); LANES];
-        let (chunks, values) = (self.line.chunks_exact(LANES), self.u.chunks_exact(LANES));
-        let rest = chunks.remainder().iter().zip(values.remainder());
-        for (entries, values) in chunks.zip(values) {
-            for lane in 0..LANES {
-                sums[lane] += values[lane] * entries[lane].into();
-            }
+fn dot_in_lanes<const LANES: usize, V: Value, T: Copy + Into<f64>>(line: &[T], u: &[V]) -> V {
+    let mut sums = [V::splat(0.0); LANES];
+    let (chunks, values) = (line.chunks_exact(LANES), u.chunks_exact(LANES));
+    let rest = chunks.remainder().iter().zip(values.remainder());
+    for (entries, values) in chunks.zip(values) {
+        for lane in 0..LANES {
+            sums[lane] += values[lane] * entries[lane].into();
         }
-        let total = rest.fold(V::splat(0.0), |sum, (entry, value)| sum + *value * (*entry).into());
-        sums.iter().fold(total, |sum, lane| sum + *lane)
     }
+    let total = rest.fold(V::splat(0.0), |sum, (entry, value)| sum + *value * (*entry).into());
+    sums.iter().fold(total, |sum, lane| sum + *lane)
 }
