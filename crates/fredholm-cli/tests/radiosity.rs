@@ -179,6 +179,7 @@ fn an_interrupt_leaves_nothing() {
     command.args(["radiosity", "--accuracy", "1e-5", "-o", "a.png"]).current_dir(&folder);
     let mut child = command.spawn().unwrap();
     while names(&folder).is_empty() {
+        assert_eq!(child.try_wait().unwrap(), None, "it ended before it could be interrupted");
         std::thread::sleep(std::time::Duration::from_millis(10));
     }
     std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
