@@ -88,10 +88,12 @@
 
 pub mod direct;
 pub mod discretize;
+pub mod equation;
 pub mod kernel;
 pub mod krylov;
 pub mod neumann;
 pub mod operator;
+pub mod product;
 pub mod quadrature;
 pub mod relax;
 pub mod space;

@@ -1,0 +1,82 @@
+//! What φ, f and K may be on a line: real or complex.
+
+use faer::traits::ComplexField;
+use num_complex::Complex64;
+use std::fmt::Debug;
+use std::iter::Sum;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+/// A real or complex number: [`f64`] or [`Complex64`].
+pub trait Scalar:
+    ComplexField
+    + Copy
+    + Debug
+    + PartialEq
+    + Send
+    + Sync
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Mul<f64, Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+    + Sum
+    + From<f64>
+    + 'static
+{
+    /// 0.
+    const ZERO: Self;
+
+    /// 1.
+    const ONE: Self;
+
+    /// |z|.
+    fn modulus(self) -> f64;
+
+    /// The complex conjugate; a real number itself.
+    fn conjugate(self) -> Self;
+
+    /// The real and the imaginary part.
+    fn parts(self) -> (f64, f64);
+
+    /// Whether neither part is infinite or NaN.
+    fn finite(self) -> bool;
+}
+
+impl Scalar for f64 {
+    const ZERO: Self = 0.0;
+    const ONE: Self = 1.0;
+
+    fn modulus(self) -> f64 {
+        self.abs()
+    }
+    fn conjugate(self) -> Self {
+        self
+    }
+    fn parts(self) -> (f64, f64) {
+        (self, 0.0)
+    }
+    fn finite(self) -> bool {
+        self.is_finite()
+    }
+}
+
+impl Scalar for Complex64 {
+    const ZERO: Self = Self::new(0.0, 0.0);
+    const ONE: Self = Self::new(1.0, 0.0);
+
+    fn modulus(self) -> f64 {
+        self.norm()
+    }
+    fn conjugate(self) -> Self {
+        self.conj()
+    }
+    fn parts(self) -> (f64, f64) {
+        (self.re, self.im)
+    }
+    fn finite(self) -> bool {
+        self.re.is_finite() && self.im.is_finite()
+    }
+}
