@@ -91,6 +91,7 @@ pub mod discretize;
 pub mod equation;
 pub mod kernel;
 pub mod krylov;
+pub mod methods;
 pub mod neumann;
 pub mod operator;
 pub mod product;

@@ -1,0 +1,150 @@
+//! n, 2n, 4n, … until the error estimate meets the tolerance: the methods that solve a linear system.
+
+use super::residual::{Judgement, judge};
+use super::{Approximation, Method, RuleKind, Setup, Yardstick};
+use super::{collocation, degenerate, galerkin, iterated, least_squares, nystrom};
+use crate::equation::{Answer, Equation, EquationError, Scalar, Status};
+use crate::space::SpaceKind;
+
+/// The answer for this n.
+pub(super) fn at<'e, T: Scalar>(
+    equation: &'e Equation<'e, T>,
+    setup: &Setup,
+    yardstick: &Yardstick,
+    n: usize,
+) -> Result<Answer<'e, f64, T>, EquationError> {
+    let approximation = approximate(equation, setup, n)?;
+    let judgement = judge(equation, &approximation, yardstick)?;
+    Ok(answer(approximation, judgement, setup, described(setup)))
+}
+
+/// The answer of the least n, doubled from the first, that meets the tolerance; or the best one.
+pub(super) fn grow<'e, T: Scalar>(
+    equation: &'e Equation<'e, T>,
+    setup: &Setup,
+    yardstick: &Yardstick,
+) -> Result<Answer<'e, f64, T>, EquationError> {
+    let mut n = first(setup);
+    let mut best: Result<(Approximation<'e, T>, Judgement), EquationError> = Err(EquationError::Method(
+        format!("{} has more unknowns from the start than it may have", setup.method),
+    ));
+    while unknowns(setup, n) * equation.components() <= largest(setup.method) {
+        // A coarse discretisation may be singular where finer ones are not.
+        match approximate(equation, setup, n) {
+            Ok(approximation) => {
+                let judgement = judge(equation, &approximation, yardstick)?;
+                let better = best.as_ref().map_or(true, |(_, best)| judgement.error < best.error);
+                if better {
+                    best = Ok((approximation, judgement));
+                }
+                // Below three times the rounding nothing is left to be gained.
+                if judgement.error <= goal(setup, judgement) || judgement.error <= 3.0 * judgement.rounding {
+                    break;
+                }
+            }
+            Err(error @ (EquationError::KernelNotFinite { .. } | EquationError::SourceNotFinite { .. })) => {
+                return Err(error);
+            }
+            Err(error) => best = best.or(Err(error)),
+        }
+        n *= 2;
+    }
+    best.map(|(approximation, judgement)| answer(approximation, judgement, setup, described(setup)))
+}
+
+/// What the error estimate has to meet.
+pub(super) fn goal(setup: &Setup, judgement: Judgement) -> f64 {
+    setup.tolerance * judgement.size.max(1.0)
+}
+
+pub(super) fn answer<'e, T: Scalar>(
+    approximation: Approximation<'e, T>,
+    judgement: Judgement,
+    setup: &Setup,
+    method: String,
+) -> Answer<'e, f64, T> {
+    let converged = judgement.error <= goal(setup, judgement);
+    Answer {
+        status: if converged { Status::Converged } else { Status::ToleranceNotMet },
+        method,
+        class: None,
+        unknowns: approximation.unknowns,
+        error_estimate: judgement.error,
+        condition: approximation.condition,
+        solution: approximation.solution,
+        alternative: None,
+    }
+}
+
+fn described(setup: &Setup) -> String {
+    match setup.method {
+        Method::Nystrom => format!("{}, {}", setup.method, setup.rule),
+        _ => format!("{}, {}", setup.method, setup.space),
+    }
+}
+
+fn approximate<'e, T: Scalar>(
+    equation: &'e Equation<'e, T>,
+    setup: &Setup,
+    n: usize,
+) -> Result<Approximation<'e, T>, EquationError> {
+    let (a, b) = (equation.interval().a(), equation.interval().b());
+    check_size(setup, n, equation.components())?;
+    let basis = || setup.space.basis(a, b, n);
+    match setup.method {
+        Method::Nystrom => nystrom::solve(equation, setup.rule.quadrature(a, b, n)?),
+        Method::Degenerate => degenerate::solve(equation, basis()),
+        Method::Collocation => collocation::solve(equation, basis()),
+        Method::Galerkin => galerkin::solve(equation, basis()),
+        Method::LeastSquares => least_squares::solve(equation, basis()),
+        Method::IteratedCollocation => {
+            Ok(iterated::iterated(equation, &collocation::solve(equation, basis())?))
+        }
+        Method::IteratedGalerkin => Ok(iterated::iterated(equation, &galerkin::solve(equation, basis())?)),
+        Method::Neumann | Method::Successive => {
+            Err(EquationError::Method(format!("{} solves no linear system", setup.method)))
+        }
+    }
+}
+
+fn unknowns(setup: &Setup, n: usize) -> usize {
+    match setup.method {
+        Method::Nystrom => n,
+        _ => setup.space.dim(n),
+    }
+}
+
+/// The first n: eight nodes, or four elements.
+fn first(setup: &Setup) -> usize {
+    match (setup.method, setup.space) {
+        (Method::Nystrom, _) => if setup.rule == RuleKind::GaussLegendre { 4 } else { 8 },
+        (_, SpaceKind::Piecewise(_)) => 4,
+        _ => 8,
+    }
+}
+
+/// Up to how many unknowns n grows by itself: where an answer takes some seconds. Galerkin's method computes integrals at 16
+/// points an element, and least squares keep them all.
+fn largest(method: Method) -> usize {
+    match method {
+        Method::LeastSquares => 300,
+        Method::Galerkin | Method::IteratedGalerkin => 600,
+        _ => 2100,
+    }
+}
+
+/// A matrix of 16000 × 16000 takes 2 GB.
+const LARGEST: usize = 16_000;
+
+fn check_size(setup: &Setup, n: usize, components: usize) -> Result<(), EquationError> {
+    // n alone first: a product of absurd numbers would overflow.
+    if n == 0 {
+        return Err(EquationError::Method(format!("{} needs n ≥ 1", setup.method)));
+    }
+    if n > LARGEST || unknowns(setup, n) * components > LARGEST {
+        return Err(EquationError::Method(format!(
+            "n = {n} makes a matrix of more than {LARGEST} rows: take a smaller n, or a space or rule of higher order"
+        )));
+    }
+    Ok(())
+}

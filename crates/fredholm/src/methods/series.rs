@@ -1,0 +1,64 @@
+//! How many terms of Σ A^k f, and whether they converge at all: the front of [`super::neumann`] and [`super::successive`].
+
+use super::growth::answer;
+use super::neumann::Series;
+use super::residual::judge;
+use super::{Method, Setup, Yardstick};
+use crate::equation::{Answer, Equation, EquationError, Scalar, Status};
+
+/// The most terms that are summed: with a spectral radius of 0.997 they give 13 digits.
+const MOST: usize = 10_000;
+
+/// The terms that a divergent series is searched for its best partial sum: an asymptotic one turns early.
+const SEARCHED: usize = 50;
+
+pub(super) fn solve<'e, T: Scalar>(
+    equation: &'e Equation<'e, T>,
+    setup: &Setup,
+    yardstick: Yardstick,
+) -> Result<Answer<'e, f64, T>, EquationError> {
+    let series = Series::new(equation, yardstick)?;
+    // n steps from φ_0 = 0 are the terms 0 … n − 1.
+    let extra = usize::from(setup.method == Method::Successive);
+    let n = match setup.n {
+        Some(n) if n > MOST || n < extra => {
+            return Err(EquationError::Method(format!("{} takes n from {extra} to {MOST}, not {n}", setup.method)));
+        }
+        Some(n) => n - extra,
+        None if yardstick.contracts() => enough(&series, setup.tolerance),
+        None => smallest(&series),
+    };
+    let method = described(setup.method, n + extra, &yardstick, series.remainder(n));
+    let mut approximation = series.partial_sum(n);
+    approximation.unknowns += extra;
+    let judgement = judge(equation, &approximation, &yardstick)?;
+    let mut answer = answer(approximation, judgement, setup, method);
+    if !yardstick.contracts() {
+        answer.status = Status::ToleranceNotMet;
+    }
+    Ok(answer)
+}
+
+/// The n for which ‖A^{n+1} f‖, the residual of φ_n, times ‖(I − A)⁻¹‖ is a quarter of what is tolerated, of ‖f‖ if not of ‖φ‖.
+fn enough<T: Scalar>(series: &Series<'_, T>, tolerance: f64) -> usize {
+    let mut sizes = series.sizes();
+    let goal = 0.25 * tolerance.max(f64::EPSILON) * sizes.next().unwrap_or(0.0).max(1.0);
+    sizes.take(MOST).position(|size| series.yardstick().inverse_norm * size <= goal).unwrap_or(MOST)
+}
+
+/// The n of the smallest ‖A^{n+1} f‖.
+fn smallest<T: Scalar>(series: &Series<'_, T>) -> usize {
+    let residuals: Vec<f64> = series.sizes().skip(1).take(SEARCHED).collect();
+    (0..residuals.len()).min_by(|i, j| residuals[*i].total_cmp(&residuals[*j])).unwrap_or(0)
+}
+
+fn described(method: Method, terms: usize, yardstick: &Yardstick, remainder: Option<f64>) -> String {
+    let (norm, radius) = (yardstick.norm, yardstick.spectral_radius);
+    let verdict = match remainder {
+        _ if !yardstick.contracts() => "diverges: use a method that solves a linear system".to_owned(),
+        Some(remainder) => format!("remainder certified to be below {remainder:.1e}"),
+        None => "‖A‖ ≥ 1, no remainder is certified".to_owned(),
+    };
+    let counted = if method == Method::Neumann { "up to A^" } else { "steps: " };
+    format!("{method}, {counted}{terms}, ‖A‖ = {norm:.4}, spectral radius {radius:.4}, {verdict}")
+}
