@@ -2,10 +2,10 @@
 //!
 //! Interpolation of K in x, (1.40), gives a_j = L_j and b_j = K(x_j, ·): local, global or trigonometric, as the space is.
 
+use super::galerkin::composite_gauss;
 use super::integrals::{images, transform_resolved};
 use super::{Approximation, Discrete, Integrals};
 use crate::equation::{Equation, EquationError, Function, Scalar, Source};
-use crate::quadrature::gauss_legendre;
 use crate::space::{Basis, combination, resolve};
 use std::sync::Arc;
 
@@ -77,7 +77,9 @@ pub fn solve_given<'e, T: Scalar>(
     terms: Vec<Term<'e, T>>,
 ) -> Result<Approximation<'e, T>, EquationError> {
     if equation.components() != 1 {
-        return Err(EquationError::Method("terms a_j(x) b_j(y) are for one equation, not for a system".into()));
+        return Err(EquationError::Method(
+            "terms a_j(x) b_j(y) are for one equation, not for a system".into(),
+        ));
     }
     let interval = equation.interval();
     let ends = vec![interval.a(), interval.b()];
@@ -106,13 +108,11 @@ fn separable<T: Scalar>(equation: &Equation<'_, T>, terms: &[Term<'_, T>], ends:
     };
     let resolved = resolve(&Function::new(2 * n + 1, all), ends, MORE_PANELS);
     let mut lines = vec![vec![T::ZERO; n + 1]; n];
-    for edge in resolved.breaks().windows(2) {
-        let rule = gauss_legendre(16, edge[0], edge[1]);
-        for (x, weight) in rule.nodes.iter().zip(&rule.weights) {
-            for (j, line) in lines.iter_mut().enumerate() {
-                let b = all(n + 1 + j, x) * *weight;
-                line.iter_mut().enumerate().for_each(|(k, sum)| *sum += all(k, x) * b);
-            }
+    let rule = composite_gauss(resolved.breaks());
+    for (x, weight) in rule.nodes.iter().zip(&rule.weights) {
+        for (j, line) in lines.iter_mut().enumerate() {
+            let b = all(n + 1 + j, x) * *weight;
+            line.iter_mut().enumerate().for_each(|(k, sum)| *sum += all(k, x) * b);
         }
     }
     let source = lines.iter_mut().filter_map(Vec::pop).collect();

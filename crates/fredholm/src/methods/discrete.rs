@@ -41,16 +41,18 @@ impl<T: Scalar> Discrete<T> {
     pub(super) fn solve(&self) -> Result<Coefficients<T>, EquationError> {
         let factors = Factors::new(&self.matrix);
         let condition = factors.condition();
-        // Not `condition > …`: a NaN is singular too.
-        if !(condition < SINGULAR) {
-            return Err(singular(condition));
-        }
+        check_condition(condition)?;
         Ok(Coefficients { values: factors.solve(&self.source), condition })
     }
 }
 
 /// A condition from where on a matrix cannot be told from a singular one.
-pub(super) const SINGULAR: f64 = 1e15;
+const SINGULAR: f64 = 1e15;
+
+/// An error where the condition is that of a singular matrix; NaN is.
+pub(super) fn check_condition(condition: f64) -> Result<(), EquationError> {
+    if condition < SINGULAR { Ok(()) } else { Err(singular(condition)) }
+}
 
 pub(super) fn singular(condition: f64) -> EquationError {
     EquationError::Method(format!(
@@ -108,14 +110,14 @@ impl<T: Scalar> Factors<T> {
         for _ in 0..5 {
             let y = plain(&self.lu.solve_adjoint(&column(&x)));
             let norm: f64 = y.iter().map(|y| y.modulus()).sum();
-            // NaN does not rise either.
-            if !(norm > largest) {
-                return if norm.is_nan() { norm } else { largest };
+            if norm <= largest || norm.is_nan() {
+                return if norm.is_nan() { f64::INFINITY } else { largest };
             }
             largest = norm;
             let signs: Vec<T> = y.iter().map(|y| sign(*y)).collect();
             let gradient = self.solve(&signs);
-            let steepest = (0..self.n).max_by(|i, j| gradient[*i].modulus().total_cmp(&gradient[*j].modulus()));
+            let steepest =
+                (0..self.n).max_by(|i, j| gradient[*i].modulus().total_cmp(&gradient[*j].modulus()));
             x = vec![T::ZERO; self.n];
             if let Some(steepest) = steepest {
                 x[steepest] = T::ONE;

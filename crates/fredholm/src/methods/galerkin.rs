@@ -10,9 +10,12 @@ use faer::linalg::solvers::Solve;
 use std::sync::Arc;
 
 /// F = G⁻¹⟨A u_j, u_i⟩ and s = G⁻¹⟨f, u_i⟩ with G = ⟨u_j, u_i⟩: (1.56), brought to the form φ_n = P_n f + P_n A φ_n of (1.53).
-pub fn discrete<T: Scalar>(equation: &Equation<'_, T>, basis: &dyn Basis) -> Result<Discrete<T>, EquationError> {
+pub fn discrete<T: Scalar>(
+    equation: &Equation<'_, T>,
+    basis: &dyn Basis,
+) -> Result<Discrete<T>, EquationError> {
     let (m, n) = (equation.components(), basis.dim());
-    let outer = outer_rule(basis);
+    let outer = composite_gauss(basis.breaks());
     let mut mass = Mat::<T>::zeros(n, n);
     // ⟨A u_j, u_i⟩ of component a in rows a n + i, with ⟨f, u_i⟩ in the last column.
     let mut moments = vec![vec![T::ZERO; m * n + 1]; m * n];
@@ -43,10 +46,12 @@ pub fn discrete<T: Scalar>(equation: &Equation<'_, T>, basis: &dyn Basis) -> Res
 const POINTS_AT_ONCE: usize = 512;
 
 /// Gauss's rule of 16 nodes on each piece: exact for products of two polynomials of degree 15.
-pub(super) fn outer_rule(basis: &dyn Basis) -> Quadrature<f64> {
+pub(super) fn composite_gauss(breaks: &[f64]) -> Quadrature<f64> {
     let mut rule = Quadrature { nodes: Vec::new(), weights: Vec::new() };
-    for edge in basis.breaks().windows(2) {
-        let piece = gauss_legendre(16, edge[0], edge[1]);
+    let reference = gauss_legendre(16, -1.0, 1.0);
+    for edge in breaks.windows(2) {
+        let (middle, half) = (0.5 * (edge[0] + edge[1]), 0.5 * (edge[1] - edge[0]));
+        let piece = reference.map(|t, weight| (middle + half * t, half * weight));
         rule.nodes.extend(piece.nodes);
         rule.weights.extend(piece.weights);
     }

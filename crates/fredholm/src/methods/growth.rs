@@ -1,10 +1,9 @@
 //! n, 2n, 4n, … until the error estimate meets the tolerance: the methods that solve a linear system.
 
 use super::residual::{Judgement, judge};
-use super::{Approximation, Method, RuleKind, Setup, Yardstick};
+use super::{Approximation, Method, Setup, Yardstick};
 use super::{collocation, degenerate, galerkin, iterated, least_squares, nystrom};
 use crate::equation::{Answer, Equation, EquationError, Scalar, Status};
-use crate::space::SpaceKind;
 
 /// The answer for this n.
 pub(super) fn at<'e, T: Scalar>(
@@ -24,7 +23,7 @@ pub(super) fn grow<'e, T: Scalar>(
     setup: &Setup,
     yardstick: &Yardstick,
 ) -> Result<Answer<'e, f64, T>, EquationError> {
-    let mut n = first(setup);
+    let mut n = FIRST;
     let mut best: Result<(Approximation<'e, T>, Judgement), EquationError> = Err(EquationError::Method(
         format!("{} has more unknowns from the start than it may have", setup.method),
     ));
@@ -114,14 +113,8 @@ fn unknowns(setup: &Setup, n: usize) -> usize {
     }
 }
 
-/// The first n: eight nodes, or four elements.
-fn first(setup: &Setup) -> usize {
-    match (setup.method, setup.space) {
-        (Method::Nystrom, _) => if setup.rule == RuleKind::GaussLegendre { 4 } else { 8 },
-        (_, SpaceKind::Piecewise(_)) => 4,
-        _ => 8,
-    }
-}
+/// The first n, of elements or nodes. An even one: Simpson's rule asks for that.
+const FIRST: usize = 4;
 
 /// Up to how many unknowns n grows by itself: where an answer takes some seconds. Galerkin's method computes integrals at 16
 /// points an element, and least squares keep them all.

@@ -67,11 +67,7 @@ fn in_words<T: Scalar>(value: T) -> String {
 /// f_a(x), or an error where it is not finite.
 pub(super) fn source<T: Scalar>(equation: &Equation<'_, T>, a: usize, x: f64) -> Result<T, EquationError> {
     let value = equation.source(a, x);
-    if value.finite() {
-        Ok(value)
-    } else {
-        Err(EquationError::SourceNotFinite { x, value: in_words(value) })
-    }
+    if value.finite() { Ok(value) } else { Err(EquationError::SourceNotFinite { x, value: in_words(value) }) }
 }
 
 /// f_a(x_i), component by component.

@@ -4,8 +4,8 @@
 //! the minimum is that of Σ_q w_q |Σ_j α_j û_j(x_q) − f(x_q)|², found by a QR factorisation. It is *not* Galerkin's solution
 //! (th. 1.13 says it is): the residual is orthogonal to the û_i, not to the u_i.
 
-use super::discrete::{Coefficients, SINGULAR, singular};
-use super::galerkin::outer_rule;
+use super::discrete::{Coefficients, check_condition};
+use super::galerkin::composite_gauss;
 use super::integrals::{images, sources};
 use super::{Approximation, Integrals};
 use crate::equation::{Equation, EquationError, Scalar};
@@ -19,7 +19,7 @@ pub fn solve<'e, T: Scalar>(
     equation: &'e Equation<'e, T>,
     basis: Arc<dyn Basis>,
 ) -> Result<Approximation<'e, T>, EquationError> {
-    let outer = outer_rule(&*basis);
+    let outer = composite_gauss(basis.breaks());
     let (points, n) = (outer.nodes.len(), basis.dim());
     let mut lines = images(equation, &*basis, &outer.nodes, Integrals::Accurate)?;
     let mut u = Vec::with_capacity(n);
@@ -36,9 +36,7 @@ pub fn solve<'e, T: Scalar>(
     let right = Mat::from_fn(lines.len(), 1, |i, _| f[i] * root(i));
     let factors = weighted.qr();
     let condition = condition(factors.thin_R().to_owned());
-    if !(condition < SINGULAR) {
-        return Err(singular(condition));
-    }
+    check_condition(condition)?;
     let solution = factors.solve_lstsq(&right);
     let values = (0..lines[0].len()).map(|j| solution[(j, 0)]).collect();
     Ok(Approximation::in_space(equation.components(), basis, Coefficients { values, condition }))

@@ -40,7 +40,9 @@ mod integrals;
 pub mod iterated;
 pub mod least_squares;
 pub mod neumann;
+mod norm;
 pub mod nystrom;
+mod radius;
 mod residual;
 mod rule;
 mod series;
@@ -50,6 +52,8 @@ mod yardstick;
 
 pub use discrete::Discrete;
 pub use integrals::Integrals;
+pub use norm::operator_norm;
+pub use radius::spectral_radius;
 pub use residual::{Judgement, judge};
 pub use rule::{RuleKind, UnknownRule};
 pub use setup::{Method, Setup, UnknownMethod};

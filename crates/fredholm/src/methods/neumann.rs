@@ -5,7 +5,7 @@
 
 use super::degenerate::source_function;
 use super::integrals::{images, or_nan, sampled, transform, transform_resolved};
-use super::{Approximation, Integrals, Yardstick};
+use super::{Approximation, Integrals, Yardstick, operator_norm, spectral_radius};
 use crate::equation::{Equation, EquationError, Function, Scalar};
 use crate::space::{Basis, Panels, Resolved, resolve};
 
@@ -14,6 +14,8 @@ use crate::space::{Basis, Panels, Resolved, resolve};
 pub struct Series<'e, T> {
     equation: &'e Equation<'e, T>,
     yardstick: Yardstick,
+    norm: f64,
+    spectral_radius: f64,
     source: Function<'e, f64, T>,
     resolved_source: Resolved<T>,
     panels: Panels,
@@ -51,12 +53,38 @@ impl<'e, T: Scalar> Series<'e, T> {
         let first = points.map(|at| Ok(transform_resolved(equation, at, &resolved_source)?.value));
         let first = first.collect::<Result<_, EquationError>>()?;
         let matrix = images(equation, &panels, panels.nodes(), Integrals::Accurate)?;
-        Ok(Self { equation, yardstick, source, resolved_source, panels, matrix, first })
+        let (norm, spectral_radius) = (operator_norm(equation)?, spectral_radius(equation)?);
+        Ok(Self {
+            equation,
+            yardstick,
+            norm,
+            spectral_radius,
+            source,
+            resolved_source,
+            panels,
+            matrix,
+            first,
+        })
     }
 
-    /// ‖A‖∞ and the spectral radius.
+    /// What the error of a partial sum is measured with.
     pub fn yardstick(&self) -> &Yardstick {
         &self.yardstick
+    }
+
+    /// ‖A‖∞.
+    pub fn norm(&self) -> f64 {
+        self.norm
+    }
+
+    /// max_k |λ_k| over the spectrum of A.
+    pub fn spectral_radius(&self) -> f64 {
+        self.spectral_radius
+    }
+
+    /// Whether it converges whatever its source: the spectral radius is below 1, as far as the digits tell.
+    pub fn converges(&self) -> bool {
+        self.spectral_radius < 1.0 - 1e-8
     }
 
     /// The sizes ‖A^k f‖∞ for k = 0, 1, …
@@ -73,7 +101,7 @@ impl<'e, T: Scalar> Series<'e, T> {
 
     /// ‖A‖^{n+1}/(1 − ‖A‖) ‖f‖, a bound of ‖φ − φ_n‖∞; `None` where ‖A‖ ≥ 1.
     pub fn remainder(&self, n: usize) -> Option<f64> {
-        let norm = self.yardstick.norm;
+        let norm = self.norm;
         // n beyond i32 leaves nothing of a power below 1, and only such are taken.
         let power = norm.powi(i32::try_from(n + 1).unwrap_or(i32::MAX));
         (norm < 1.0).then(|| power / (1.0 - norm) * self.resolved_source.scale)

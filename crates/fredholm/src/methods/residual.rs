@@ -60,10 +60,8 @@ pub fn judge<T: Scalar>(
         .iter()
         .fold((0.0_f64, 0.0_f64, 0.0_f64), |max, at| (max.0.max(at.0), max.1.max(at.1), max.2.max(at.2)));
     let size = resolved.scale;
-    let rounding = yardstick.inverse_norm
-        * (rule * size + ROUNDING * (f + (1.0 + yardstick.norm) * size));
-    let error =
-        yardstick.inverse_norm * (SAMPLING * r + yardstick.norm * resolved.defect) + rounding;
+    let rounding = yardstick.inverse_norm * (rule * size + ROUNDING * (f + (1.0 + yardstick.norm) * size));
+    let error = yardstick.inverse_norm * (SAMPLING * r + yardstick.norm * resolved.defect) + rounding;
     Ok(Judgement { error, rounding, size })
 }
 

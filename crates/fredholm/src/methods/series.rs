@@ -22,18 +22,22 @@ pub(super) fn solve<'e, T: Scalar>(
     let extra = usize::from(setup.method == Method::Successive);
     let n = match setup.n {
         Some(n) if n > MOST || n < extra => {
-            return Err(EquationError::Method(format!("{} takes n from {extra} to {MOST}, not {n}", setup.method)));
+            return Err(EquationError::Method(format!(
+                "{} takes n from {extra} to {MOST}, not {n}",
+                setup.method
+            )));
         }
         Some(n) => n - extra,
-        None if yardstick.contracts() => enough(&series, setup.tolerance),
+        None if series.converges() => enough(&series, setup.tolerance),
         None => smallest(&series),
     };
-    let method = described(setup.method, n + extra, &yardstick, series.remainder(n));
+    let method = described(setup.method, n + extra, &series, series.remainder(n));
+    let converges = series.converges();
     let mut approximation = series.partial_sum(n);
     approximation.unknowns += extra;
     let judgement = judge(equation, &approximation, &yardstick)?;
     let mut answer = answer(approximation, judgement, setup, method);
-    if !yardstick.contracts() {
+    if !converges {
         answer.status = Status::ToleranceNotMet;
     }
     Ok(answer)
@@ -52,10 +56,15 @@ fn smallest<T: Scalar>(series: &Series<'_, T>) -> usize {
     (0..residuals.len()).min_by(|i, j| residuals[*i].total_cmp(&residuals[*j])).unwrap_or(0)
 }
 
-fn described(method: Method, terms: usize, yardstick: &Yardstick, remainder: Option<f64>) -> String {
-    let (norm, radius) = (yardstick.norm, yardstick.spectral_radius);
+fn described<T: Scalar>(
+    method: Method,
+    terms: usize,
+    series: &Series<'_, T>,
+    remainder: Option<f64>,
+) -> String {
+    let (norm, radius) = (series.norm(), series.spectral_radius());
     let verdict = match remainder {
-        _ if !yardstick.contracts() => "diverges: use a method that solves a linear system".to_owned(),
+        _ if !series.converges() => "diverges: use a method that solves a linear system".to_owned(),
         Some(remainder) => format!("remainder certified to be below {remainder:.1e}"),
         None => "‖A‖ ≥ 1, no remainder is certified".to_owned(),
     };

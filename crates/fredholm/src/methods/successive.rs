@@ -24,7 +24,8 @@ pub fn solve<'e, T: Scalar>(
         return Ok(Approximation { solution: phi, breaks: ends, unknowns: 0, condition });
     }
     let residual = move |a: usize, x: &f64| {
-        equation.source(a, *x) + or_nan(transform_resolved(equation, (a, *x), &resolved)) - phi.component(a, x)
+        equation.source(a, *x) + or_nan(transform_resolved(equation, (a, *x), &resolved))
+            - phi.component(a, x)
     };
     let series = Series::of(equation, yardstick, Function::new(m, residual))?;
     let (sum, phi) = (series.partial_sum(steps - 1), start.clone());

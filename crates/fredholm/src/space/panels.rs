@@ -1,8 +1,8 @@
 //! φ(x) = Σ_j φ(x_j) u_j(x) on panels of degree 15 cut until that is true to rounding: a function that can be integrated.
 
+use super::Basis;
 use super::barycentric::Barycentric;
 use super::piecewise::piece;
-use super::Basis;
 use crate::equation::{Function, Scalar};
 use rayon::prelude::*;
 
@@ -144,6 +144,7 @@ fn assembled<T: Scalar>(mut panels: Vec<Panel<T>>, components: usize, scale: f64
     let length = breaks[breaks.len() - 1] - breaks[0];
     let share = |panel: &Panel<T>| (panel.edges.1 - panel.edges.0) / length;
     let defect = panels.iter().map(|panel| panel.defect * share(panel)).sum();
-    let values = (0..components).flat_map(|c| panels.iter().flat_map(move |panel| panel.values[c].iter().copied()));
+    let values =
+        (0..components).flat_map(|c| panels.iter().flat_map(move |panel| panel.values[c].iter().copied()));
     Resolved { values: values.collect(), panels: Panels::new(breaks), defect, scale }
 }
