@@ -107,7 +107,9 @@ pub enum EquationError {
         value: String,
     },
     /// The kernel is infinite or NaN where it was sampled.
-    #[error("the kernel is {value} at x = {x}, y = {y}")]
+    #[error(
+        "the kernel is {value} at x = {x}, y = {y}, where the method samples it: take collocation or the automatic method"
+    )]
     KernelNotFinite {
         /// Where.
         x: f64,

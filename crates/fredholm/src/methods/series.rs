@@ -12,6 +12,9 @@ const MOST: usize = 10_000;
 /// The terms that a divergent series is searched for its best partial sum: an asymptotic one turns early.
 const SEARCHED: usize = 50;
 
+/// A term that is this part of ‖A‖ times the one before is what rounding left of 0.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
 pub(super) fn solve<'e, T: Scalar>(
     equation: &'e Equation<'e, T>,
     setup: &Setup,
@@ -46,8 +49,14 @@ pub(super) fn solve<'e, T: Scalar>(
 /// The n for which ‖A^{n+1} f‖, the residual of φ_n, times ‖(I − A)⁻¹‖ is a quarter of what is tolerated, of ‖f‖ if not of ‖φ‖.
 fn enough<T: Scalar>(series: &Series<'_, T>, tolerance: f64) -> usize {
     let mut sizes = series.sizes();
-    let goal = 0.25 * tolerance.max(f64::EPSILON) * sizes.next().unwrap_or(0.0).max(1.0);
-    sizes.take(MOST).position(|size| series.yardstick().inverse_norm * size <= goal).unwrap_or(MOST)
+    let mut before = sizes.next().unwrap_or(0.0);
+    let goal = 0.25 * tolerance.max(f64::EPSILON) * before.max(1.0) / series.yardstick().inverse_norm;
+    let done = |size: f64| {
+        let rounding = ROUNDING * series.norm() * before;
+        before = size;
+        size <= goal.max(rounding)
+    };
+    sizes.take(MOST).position(done).unwrap_or(MOST)
 }
 
 /// The n of the smallest ‖A^{n+1} f‖.

@@ -1,4 +1,5 @@
-//! u_j(x) = D_n(2π(x − x_j)/(b − a)): trigonometric interpolation at equidistant nodes, of period b − a (paper, §1.3.3).
+//! u_j(x) = (−1)^j csc(t − t_j) / Σ_i (−1)^i csc(t − t_i), t = π(x − a)/(b − a): trigonometric interpolation at equidistant
+//! nodes (paper, §1.3.3). For an even number of nodes the cotangent takes the place of the cosecant (Henrici 1979).
 
 use super::{Basis, equal_parts};
 use std::f64::consts::PI;
@@ -23,17 +24,6 @@ impl Trigonometric {
     }
 }
 
-/// sin(nt/2) / (n sin(t/2)) for odd n, sin(nt/2) / (n tan(t/2)) for even n.
-fn dirichlet(n: usize, t: f64) -> f64 {
-    let half = 0.5 * t;
-    let sine = half.sin();
-    if sine == 0.0 {
-        return 1.0;
-    }
-    let kernel = (n as f64 * half).sin() / (n as f64 * sine);
-    if n.is_multiple_of(2) { kernel * half.cos() } else { kernel }
-}
-
 impl Basis for Trigonometric {
     fn nodes(&self) -> &[f64] {
         &self.nodes
@@ -44,13 +34,27 @@ impl Basis for Trigonometric {
     }
 
     fn values(&self, x: f64, values: &mut Vec<f64>) -> usize {
-        let n = self.nodes.len();
         values.clear();
-        values.extend(self.nodes.iter().map(|node| {
-            // One period about 0: sin(nt/2) of a large t would lose digits, and t = 2π must count as 0.
+        for (j, node) in self.nodes.iter().enumerate() {
+            // Within half a period of the node: the sine of a large angle would lose digits.
             let turns = (x - node) / self.period;
-            dirichlet(n, 2.0 * PI * (turns - turns.round()))
-        }));
+            let half = PI * (turns - turns.round());
+            if half == 0.0 {
+                values.fill(0.0);
+                values.resize(self.nodes.len(), 0.0);
+                values[j] = 1.0;
+                return 0;
+            }
+            // Half a turn more changes the sign of the cosecant, not of the cotangent.
+            let (inverse, flips) = if self.nodes.len().is_multiple_of(2) {
+                (1.0 / half.tan(), false)
+            } else {
+                (1.0 / half.sin(), turns.round() % 2.0 != 0.0)
+            };
+            values.push(if j.is_multiple_of(2) == flips { -inverse } else { inverse });
+        }
+        let sum: f64 = values.iter().sum();
+        values.iter_mut().for_each(|value| *value /= sum);
         0
     }
 }
