@@ -36,9 +36,9 @@ const LEAST_FINER: usize = 24;
 const WORTH_GROWING: f64 = 0.03;
 
 /// A direction is divided when, at the rate seen, its rule would have to become more than so many times as large. A peak a
-/// tenth as wide as the domain, and the same everywhere, needs three times the 14 nodes that first feel it, and is better left
+/// tenth as wide as the domain, and the same everywhere, needs 2.3 times the 14 nodes that first feel it, and is better left
 /// whole; one that is narrow or in one place only asks for more.
-const TOO_LARGE: f64 = 4.0;
+const TOO_LARGE: f64 = 2.5;
 
 /// Below so many nodes no rate can be seen.
 const LEAST_SPLIT: usize = 12;
