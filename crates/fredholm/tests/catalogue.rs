@@ -67,7 +67,7 @@ fn points([a, b]: [f64; 2]) -> Vec<f64> {
             (true, true) => a + t * (b - a),
             (true, false) => a + 3.0 * t / (1.0 - t),
             (false, true) => b - 3.0 * t / (1.0 - t),
-            (false, false) => 2.0 * (2.0 * t - 1.0) / (t * (1.0 - t)),
+            (false, false) => 0.5 * (2.0 * t - 1.0) / (t * (1.0 - t)),
         }
     };
     (1..=20).map(place).collect()
