@@ -94,6 +94,7 @@ pub mod kernel;
 pub mod krylov;
 pub mod neumann;
 pub mod operator;
+pub mod plane;
 pub mod product;
 pub mod quadrature;
 pub mod relax;

@@ -152,6 +152,40 @@ pub enum EquationError {
         /// What it is there.
         value: String,
     },
+    /// A domain of the plane without a finite, positive area.
+    #[error("\"{domain}\" has no finite and positive area")]
+    EmptyDomain {
+        /// As it was given.
+        domain: String,
+    },
+    /// A text that is no domain of the plane.
+    #[error(
+        "\"{text}\": {why}; write \"rectangle x0 x1 y0 y1\", \"triangle x1 y1 x2 y2 x3 y3\" or \"disk cx cy r\""
+    )]
+    UnknownDomain {
+        /// What was read.
+        text: String,
+        /// What is wrong with it.
+        why: String,
+    },
+    /// The source is infinite or NaN at a point of the plane where it was sampled.
+    #[error("the source is {value} at (x, y) = ({}, {})", .p[0], .p[1])]
+    PlaneSourceNotFinite {
+        /// Where.
+        p: [f64; 2],
+        /// What it is there.
+        value: String,
+    },
+    /// The kernel is infinite or NaN at points of the plane where it was sampled.
+    #[error("the kernel is {value} at (x, y) = ({}, {}), (s, t) = ({}, {})", .p[0], .p[1], .q[0], .q[1])]
+    PlaneKernelNotFinite {
+        /// Where.
+        p: [f64; 2],
+        /// Where.
+        q: [f64; 2],
+        /// What it is there.
+        value: String,
+    },
     /// A method cannot do what is asked of it.
     #[error("{0}")]
     Method(String),
