@@ -1,0 +1,128 @@
+//! n grows until the estimated error meets the tolerance, and where growth does not pay the domain is divided.
+
+use super::PlaneEquation;
+use super::estimate::{Error, defects, error, largest};
+use super::mesh::Mesh;
+use super::nystrom::Nystrom;
+use crate::equation::{Answer, EquationError, Scalar, Status};
+
+/// How exactly, and at what cost.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// The greatest error wanted, as a part of max |φ|.
+    pub tolerance: f64,
+    /// Nodes in each direction, on the undivided domain (a disk has n radii and 4n angles); `None`: as many as it takes.
+    pub n: Option<usize>,
+    /// The most numbers to solve for. 3000 take some seconds and 150 MB.
+    pub unknowns: usize,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { tolerance: 1e-12, n: None, unknowns: 3000 }
+    }
+}
+
+/// The first n: with it the finer rule still sees twice as much.
+const FIRST: usize = 6;
+
+/// What counts are multiplied by; the second where the first asks for more than the most unknowns.
+const GROWTHS: [f64; 2] = [1.5, 1.2];
+
+/// A solution with its error.
+struct Found<'e, 'a, T: Scalar> {
+    nystrom: Nystrom<'e, 'a, T>,
+    error: Error,
+}
+
+/// Solves by Nyström's method, with Gauss's rules on rectangles and triangles, and Gauss in r² and the trapezoid rule in the
+/// angle on a disk.
+///
+/// # Errors
+///
+/// A domain without area, options that ask for nothing, a source or kernel that is infinite or NaN at a node.
+pub fn solve<'e, 'a, T: Scalar>(
+    equation: &'e PlaneEquation<'a, T>,
+    options: &Options,
+) -> Result<Answer<'e, [f64; 2], T>, EquationError> {
+    let domain = equation.domain.checked()?;
+    options.check()?;
+    let mut mesh = Mesh::new(domain, options.n.unwrap_or(FIRST));
+    if mesh.unknowns() > options.unknowns {
+        let (needed, most) = (mesh.unknowns(), options.unknowns);
+        return Err(EquationError::Method(format!("{needed} unknowns are asked for, and {most} are allowed")));
+    }
+    let mut best = attempt(equation, &mesh)?;
+    let mut latest = None;
+    while options.n.is_none() && !best.meets(options.tolerance) {
+        let found = latest.as_ref().unwrap_or(&best);
+        let Some(next) = refined(found, &mesh, options)? else { break };
+        mesh = next;
+        let found = attempt(equation, &mesh)?;
+        if found.error.estimate() < best.error.estimate() {
+            best = found;
+            latest = None;
+        } else {
+            latest = Some(found);
+        }
+    }
+    Ok(best.into_answer(options.tolerance))
+}
+
+impl Options {
+    fn check(&self) -> Result<(), EquationError> {
+        if !(self.tolerance >= 0.0 && self.tolerance.is_finite()) {
+            let tolerance = self.tolerance;
+            return Err(EquationError::Method(format!("the tolerance {tolerance} is no number from 0 on")));
+        }
+        if self.n == Some(0) {
+            return Err(EquationError::Method("n = 0: a rule has at least one node".to_owned()));
+        }
+        Ok(())
+    }
+}
+
+fn attempt<'e, 'a, T: Scalar>(
+    equation: &'e PlaneEquation<'a, T>,
+    mesh: &Mesh,
+) -> Result<Found<'e, 'a, T>, EquationError> {
+    let nystrom = Nystrom::new(equation, mesh.rule())?;
+    let error = error(&nystrom, mesh)?;
+    Ok(Found { nystrom, error })
+}
+
+/// The next mesh; none where more nodes do not help or are not allowed.
+fn refined<T: Scalar>(
+    found: &Found<'_, '_, T>,
+    mesh: &Mesh,
+    options: &Options,
+) -> Result<Option<Mesh>, EquationError> {
+    if found.error.is_rounding() {
+        return Ok(None);
+    }
+    let defects = defects(&found.nystrom, mesh)?;
+    let target = found.error.floor.max(options.tolerance * largest(&found.nystrom.values)) / found.nystrom.inverse_norm;
+    let meshes = GROWTHS.map(|growth| mesh.refined(&defects, target, growth));
+    Ok(meshes.into_iter().find(|next| next.unknowns() <= options.unknowns))
+}
+
+impl<'e, T: Scalar> Found<'e, '_, T> {
+    fn meets(&self, tolerance: f64) -> bool {
+        self.error.estimate() <= tolerance * largest(&self.nystrom.values)
+    }
+
+    fn into_answer(self, tolerance: f64) -> Answer<'e, [f64; 2], T> {
+        let status = if self.meets(tolerance) { Status::Converged } else { Status::ToleranceNotMet };
+        let nystrom = self.nystrom;
+        Answer {
+            status,
+            method: format!("nystrom, product rule on the {}", nystrom.equation.domain),
+            class: None,
+            unknowns: nystrom.values.len(),
+            error_estimate: self.error.estimate(),
+            condition: nystrom.norm * nystrom.inverse_norm,
+            solution: nystrom.into_function(),
+            alternative: None,
+        }
+    }
+}
