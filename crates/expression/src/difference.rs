@@ -68,8 +68,8 @@ impl Affine {
 pub(crate) fn exact(graph: &mut Graph, operation: Binary, a: Node, b: Node) -> Option<Node> {
     let column = graph.difference()?.column;
     let (left, right) = (graph.facts(a).affine?, graph.facts(b).affine?);
-    if left.multiple().is_some() && graph.real_value(b).is_some() {
-        return None; // it has the difference already
+    if graph.real_value(a).is_some() || graph.real_value(b).is_some() {
+        return None; // what is added to a number has the difference already
     }
     let sign = if operation == Binary::Add { 1.0 } else { -1.0 };
     let (factor, rest) = left.combined(right, sign).multiple()?;
