@@ -31,60 +31,53 @@ thread_local! {
         const { RefCell::new(Registers { real: Vec::new(), complex: Vec::new(), owner: 0 }) };
 }
 
+/// A batch as short as this is worth short loops: half of its time is the way there.
+const SHORT: usize = 16;
+
 impl Program {
     /// The real value at a point.
     pub fn at(&self, point: &[f64]) -> f64 {
         REGISTERS.with_borrow_mut(|registers| {
-            registers.prepare(self);
             registers.point(self, point);
-            registers.real[self.root][0]
+            registers.real[self.root].0[0]
         })
     }
 
     /// The value at a point, as a complex number.
     pub fn at_complex(&self, point: &[f64]) -> C {
         REGISTERS.with_borrow_mut(|registers| {
-            registers.prepare(self);
             registers.point(self, point);
             match self.kind {
-                Kind::Real => registers.real[self.root][0].into(),
-                Kind::Complex => registers.complex[self.root][0],
+                Kind::Real => registers.real[self.root].0[0].into(),
+                Kind::Complex => registers.complex[self.root].0[0],
             }
         })
     }
 
     /// The real values, one a lane.
     pub fn fill(&self, columns: &[Column<'_>], out: &mut [f64]) {
-        REGISTERS.with_borrow_mut(|registers| {
-            let varying = registers.start(self, columns);
-            for (block, out) in out.chunks_mut(LANES).enumerate() {
-                registers.block(self, columns, varying, block * LANES, out.len());
-                copy(&registers.real[self.root], out);
-            }
-        });
+        self.blocks(columns, out, |registers, out| out.copy_from_slice(&registers.real[self.root].0[..out.len()]));
     }
 
     /// The values as complex numbers, one a lane.
     pub fn fill_complex(&self, columns: &[Column<'_>], out: &mut [C]) {
-        REGISTERS.with_borrow_mut(|registers| {
-            let varying = registers.start(self, columns);
-            for (block, out) in out.chunks_mut(LANES).enumerate() {
-                registers.block(self, columns, varying, block * LANES, out.len());
-                match self.kind {
-                    Kind::Real => copy(&lanes::promoted(&registers.real[self.root]), out),
-                    Kind::Complex => copy(&registers.complex[self.root], out),
-                }
-            }
+        self.blocks(columns, out, |registers, out| match self.kind {
+            Kind::Real => out.iter_mut().zip(&registers.real[self.root].0).for_each(|(out, x)| *out = C::from(x)),
+            Kind::Complex => out.copy_from_slice(&registers.complex[self.root].0[..out.len()]),
         });
     }
-}
 
-/// The first lanes; a whole block as one move of known length.
-#[inline(always)]
-fn copy<T: Copy>(block: &Block<T>, out: &mut [T]) {
-    match <&mut Block<T>>::try_from(&mut *out) {
-        Ok(out) => *out = *block,
-        Err(_) => out.copy_from_slice(&block[..out.len()]),
+    /// Runs the program over a batch; `take` takes the results of each block.
+    #[inline(always)]
+    fn blocks<T>(&self, columns: &[Column<'_>], out: &mut [T], take: impl Fn(&Registers, &mut [T])) {
+        REGISTERS.with_borrow_mut(|registers| {
+            registers.prepare(self);
+            if out.len() <= SHORT {
+                registers.batch::<SHORT, T>(self, columns, out, take);
+            } else {
+                registers.batch::<LANES, T>(self, columns, out, take);
+            }
+        });
     }
 }
 
@@ -101,100 +94,126 @@ impl Registers {
     fn adopt(&mut self, program: &Program) {
         let [real, complex] = program.registers;
         if self.real.len() < real {
-            self.real.resize(real, [0.0; LANES]);
+            self.real.resize(real, Block([0.0; LANES]));
         }
         if self.complex.len() < complex {
-            self.complex.resize(complex, [C::ZERO; LANES]);
+            self.complex.resize(complex, Block([C::ZERO; LANES]));
         }
-        program.constants.iter().for_each(|(register, value)| self.real[*register] = [*value; LANES]);
-        program.complex_constants.iter().for_each(|(register, value)| self.complex[*register] = [*value; LANES]);
+        program.constants.iter().for_each(|(register, value)| self.real[*register].0.fill(*value));
+        program.complex_constants.iter().for_each(|(register, value)| self.complex[*register].0.fill(*value));
         self.owner = program.identity;
     }
 
     /// All steps, at one point.
     fn point(&mut self, program: &Program, point: &[f64]) {
-        self.real.iter_mut().zip(point).for_each(|(register, value)| *register = [*value; LANES]);
-        program.steps.iter().for_each(|step| self.run(step, 1));
+        self.prepare(program);
+        self.real.iter_mut().zip(point).for_each(|(register, value)| register.0[0] = *value);
+        program.steps.iter().for_each(|step| self.run::<1>(step, 1));
     }
 
-    /// What is the same in all lanes; then bit k tells whether column k is not.
-    #[inline]
-    fn start(&mut self, program: &Program, columns: &[Column<'_>]) -> u64 {
-        self.prepare(program);
+    /// What is the same in all lanes once; what is not, for each block of N.
+    #[inline(always)]
+    fn batch<const N: usize, T>(
+        &mut self,
+        program: &Program,
+        columns: &[Column<'_>],
+        out: &mut [T],
+        take: impl Fn(&Registers, &mut [T]),
+    ) {
         let mut varying = 0;
         for (k, column) in columns.iter().enumerate() {
             match column {
-                Column::Same(value) => self.real[k] = [*value; LANES],
+                Column::Same(value) => self.real[k].0[..N].fill(*value),
                 Column::Each(_) => varying |= 1 << k,
             }
         }
         for step in program.steps.iter().filter(|step| step.depends & varying == 0) {
-            self.run(step, 1);
+            self.run::<N>(step, 1);
         }
-        varying
+        for (block, out) in out.chunks_mut(N).enumerate() {
+            self.load::<N>(columns, block * N, out.len());
+            for step in program.steps.iter().filter(|step| step.depends & varying != 0) {
+                self.run::<N>(step, out.len());
+            }
+            take(self, out);
+        }
     }
 
-    /// What is not, for the block that starts at lane `start`.
-    #[inline]
-    fn block(&mut self, program: &Program, columns: &[Column<'_>], varying: u64, start: usize, lanes: usize) {
-        for (k, column) in columns.iter().enumerate() {
+    /// The columns that differ from lane to lane, from lane `start` on.
+    #[inline(always)]
+    fn load<const N: usize>(&mut self, columns: &[Column<'_>], start: usize, lanes: usize) {
+        for (register, column) in self.real.iter_mut().zip(columns) {
             if let Column::Each(values) = column {
-                match values[start..].first_chunk() {
-                    Some(block) => self.real[k] = *block,
-                    None => self.real[k][..lanes].copy_from_slice(&values[start..start + lanes]),
+                match values[start..].first_chunk::<N>() {
+                    Some(block) => register.0[..N].copy_from_slice(block),
+                    None => register.0[..lanes].copy_from_slice(&values[start..start + lanes]),
                 }
             }
         }
-        for step in program.steps.iter().filter(|step| step.depends & varying != 0) {
-            self.run(step, lanes);
-        }
     }
 
-    /// One step, on the first lanes at least.
+    /// One step, on the first lanes at least and on no more than N. Its register lies behind those that it reads.
     #[inline(always)]
-    fn run(&mut self, step: &Step, lanes: usize) {
+    fn run<const N: usize>(&mut self, step: &Step, lanes: usize) {
         if step.real {
-            self.real[step.register] = self.real_value(step, lanes);
+            let (before, rest) = self.real.split_at_mut(step.register);
+            step.real_value::<N>(&mut rest[0], before, &self.complex, lanes);
         } else {
-            self.complex[step.register] = self.complex_value(step, lanes);
+            let (before, rest) = self.complex.split_at_mut(step.register);
+            step.complex_value::<N>(&mut rest[0], &self.real, before, lanes);
         }
     }
+}
 
+impl Step {
     #[inline(always)]
-    fn real_value(&self, step: &Step, lanes: usize) -> Block<f64> {
-        let [a, b, c] = step.arguments;
-        match step.operation {
-            Operation::Unary(operation) if step.real_arguments[0] => {
-                lanes::unary(operation, &self.real[a], lanes)
+    fn real_value<const N: usize>(
+        &self,
+        out: &mut Block<f64>,
+        real: &[Block<f64>],
+        complex: &[Block<C>],
+        lanes: usize,
+    ) {
+        let [a, b, c] = self.arguments;
+        match self.operation {
+            Operation::Unary(operation) if self.real_arguments[0] => {
+                lanes::unary::<N>(operation, out, &real[a], lanes);
             }
-            Operation::Unary(operation) => lanes::real_of_complex(operation, &self.complex[a], lanes),
-            Operation::Binary(operation) if step.real_arguments[0] => {
-                lanes::binary(operation, &self.real[a], &self.real[b], lanes)
+            Operation::Unary(operation) => lanes::real_of_complex::<N>(operation, out, &complex[a], lanes),
+            Operation::Binary(operation) if self.real_arguments[0] => {
+                lanes::binary::<N>(operation, out, &real[a], &real[b], lanes);
             }
-            Operation::Binary(operation) => lanes::comparison(operation, &self.complex[a], &self.complex[b]),
-            Operation::Power(n) => lanes::powers(n, &self.real[a], lanes),
-            Operation::Select => lanes::selection(&self.real[a], &self.real[b], &self.real[c], f64::NAN),
+            Operation::Binary(operation) => lanes::comparison::<N>(operation, out, &complex[a], &complex[b]),
+            Operation::Power(n) => lanes::powers::<N>(n, out, &real[a], lanes),
+            Operation::Select => lanes::selection::<N, _>(out, &real[a], &real[b], &real[c], f64::NAN),
             // these are no steps of real value
-            Operation::Constant(_) | Operation::Variable(_) | Operation::Promote => [f64::NAN; LANES],
+            Operation::Constant(_) | Operation::Variable(_) | Operation::Promote => out.0.fill(f64::NAN),
         }
     }
 
-    fn complex_value(&self, step: &Step, lanes: usize) -> Block<C> {
-        let [a, b, c] = step.arguments;
-        let (real, complex) = (&self.real, &self.complex);
+    fn complex_value<const N: usize>(
+        &self,
+        out: &mut Block<C>,
+        real: &[Block<f64>],
+        complex: &[Block<C>],
+        lanes: usize,
+    ) {
+        let [a, b, c] = self.arguments;
         let undefined = C::new(f64::NAN, f64::NAN);
-        match step.operation {
-            Operation::Unary(operation) => lanes::complex_unary(operation, &complex[a], lanes),
-            Operation::Binary(operation) => match step.real_arguments {
-                [true, ..] => lanes::arithmetic(operation, &real[a], &complex[b]),
-                [_, true, _] => lanes::arithmetic(operation, &complex[a], &real[b]),
-                _ => lanes::complex_binary(operation, &complex[a], &complex[b], lanes),
+        match self.operation {
+            Operation::Unary(operation) => lanes::complex_unary::<N>(operation, out, &complex[a], lanes),
+            Operation::Binary(operation) => match self.real_arguments {
+                [true, ..] => lanes::arithmetic::<N, _, _>(operation, out, &real[a], &complex[b]),
+                [_, true, _] => lanes::arithmetic::<N, _, _>(operation, out, &complex[a], &real[b]),
+                _ => lanes::complex_binary::<N>(operation, out, &complex[a], &complex[b], lanes),
             },
-            Operation::Power(n) => lanes::complex_powers(n, &complex[a], lanes),
-            Operation::Select => lanes::selection(&real[a], &complex[b], &complex[c], undefined),
-            Operation::Promote => lanes::promoted(&real[a]),
+            Operation::Power(n) => lanes::complex_powers::<N>(n, out, &complex[a], lanes),
+            Operation::Select => {
+                lanes::selection::<N, _>(out, &real[a], &complex[b], &complex[c], undefined);
+            }
+            Operation::Promote => lanes::promoted::<N>(out, &real[a]),
             // these are no steps
-            Operation::Constant(_) | Operation::Variable(_) => [undefined; LANES],
+            Operation::Constant(_) | Operation::Variable(_) => out.0.fill(undefined),
         }
     }
 }

@@ -5,129 +5,178 @@ use crate::operation::{Binary, Unary, power, select};
 use num_complex::Complex;
 use std::ops::{Add, Div, Mul, Sub};
 
-/// Lanes of a block. A step costs about as much as four vector instructions: with fewer lanes that shows, with more a
-/// short batch pays for lanes that it has not.
-pub(crate) const LANES: usize = 16;
+/// Lanes of a register: 512 bytes, so that the registers of a usual formula stay in the first cache.
+pub(crate) const LANES: usize = 64;
 
-/// A register.
-pub(crate) type Block<T> = [T; LANES];
+/// A register, on lines of the cache of its own.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub(crate) struct Block<T>(pub [T; LANES]);
 
 type C = Complex<f64>;
 
-/// f, lane by lane: for what takes less time than to ask how many lanes are in use.
+/// f of the first N lanes: for what takes less time than to ask how many lanes are in use.
 #[inline(always)]
-fn map<A: Copy, O>(a: &Block<A>, f: impl Fn(A) -> O) -> Block<O> {
-    std::array::from_fn(|lane| f(a[lane]))
+fn map<const N: usize, A: Copy, O>(out: &mut Block<O>, a: &Block<A>, f: impl Fn(A) -> O) {
+    for lane in 0..N {
+        out.0[lane] = f(a.0[lane]);
+    }
 }
 
-/// f of two, lane by lane.
+/// f of two, of the first N lanes.
 #[inline(always)]
-fn map2<A: Copy, B: Copy, O>(a: &Block<A>, b: &Block<B>, f: impl Fn(A, B) -> O) -> Block<O> {
-    std::array::from_fn(|lane| f(a[lane], b[lane]))
+fn map2<const N: usize, A: Copy, B: Copy, O>(
+    out: &mut Block<O>,
+    a: &Block<A>,
+    b: &Block<B>,
+    f: impl Fn(A, B) -> O,
+) {
+    for lane in 0..N {
+        out.0[lane] = f(a.0[lane], b.0[lane]);
+    }
 }
 
 /// f of the first lanes; of one lane, for all.
 #[inline(always)]
-fn first<O: Copy + Default>(lanes: usize, f: impl Fn(usize) -> O) -> Block<O> {
+fn first<const N: usize, O: Copy>(out: &mut Block<O>, lanes: usize, f: impl Fn(usize) -> O) {
     if lanes == 1 {
-        return [f(0); LANES];
+        let value = f(0);
+        out.0[..N].fill(value);
+    } else {
+        out.0[..lanes].iter_mut().enumerate().for_each(|(lane, out)| *out = f(lane));
     }
-    let mut out = [O::default(); LANES];
-    out[..lanes].iter_mut().enumerate().for_each(|(lane, out)| *out = f(lane));
-    out
 }
 
-/// A real operation of one argument, on the first lanes at least.
+/// A real operation of one argument.
 #[inline(always)]
-pub(crate) fn unary(operation: Unary, a: &Block<f64>, lanes: usize) -> Block<f64> {
+pub(crate) fn unary<const N: usize>(operation: Unary, out: &mut Block<f64>, a: &Block<f64>, lanes: usize) {
     macro_rules! run {
         (quick: $($quick:ident),*; slow: $($slow:ident),*) => {
             match operation {
-                $(Unary::$quick => map(a, |x| Unary::$quick.at(x)),)*
-                $(Unary::$slow => first(lanes, |lane| Unary::$slow.at(a[lane])),)*
-                other => first(lanes, |lane| other.at(a[lane])),
+                $(Unary::$quick => map::<N, _, _>(out, a, |x| Unary::$quick.at(x)),)*
+                $(Unary::$slow => first::<N, _>(out, lanes, |lane| Unary::$slow.at(a.0[lane])),)*
+                other => first::<N, _>(out, lanes, |lane| other.at(a.0[lane])),
             }
         };
     }
     run!(quick: Neg, Not, Abs, Sqrt; slow: Exp, Ln)
 }
 
-/// A real operation of two arguments, on the first lanes at least.
+/// A real operation of two arguments.
 #[inline(always)]
-pub(crate) fn binary(operation: Binary, a: &Block<f64>, b: &Block<f64>, lanes: usize) -> Block<f64> {
+pub(crate) fn binary<const N: usize>(
+    operation: Binary,
+    out: &mut Block<f64>,
+    a: &Block<f64>,
+    b: &Block<f64>,
+    lanes: usize,
+) {
     macro_rules! run {
         ($($quick:ident),*) => {
             match operation {
-                $(Binary::$quick => map2(a, b, |x, y| Binary::$quick.at(x, y)),)*
-                other => first(lanes, |lane| other.at(a[lane], b[lane])),
+                $(Binary::$quick => map2::<N, _, _, _>(out, a, b, |x, y| Binary::$quick.at(x, y)),)*
+                other => first::<N, _>(out, lanes, |lane| other.at(a.0[lane], b.0[lane])),
             }
         };
     }
     run!(Add, Sub, Mul, Div, Min, Max, Less, LessEqual, Equal, NotEqual, And, Or)
 }
 
-/// xⁿ, on the first lanes at least.
+/// xⁿ.
 #[inline(always)]
-pub(crate) fn powers(n: i32, a: &Block<f64>, lanes: usize) -> Block<f64> {
+pub(crate) fn powers<const N: usize>(n: i32, out: &mut Block<f64>, a: &Block<f64>, lanes: usize) {
     match n {
-        2 => map(a, |x| power(x, 2)),
-        3 => map(a, |x| power(x, 3)),
-        4 => map(a, |x| power(x, 4)),
-        -1 => map(a, |x| power(x, -1)),
-        -2 => map(a, |x| power(x, -2)),
-        n => first(lanes, |lane| power(a[lane], n)),
+        2 => map::<N, _, _>(out, a, |x| power(x, 2)),
+        3 => map::<N, _, _>(out, a, |x| power(x, 3)),
+        4 => map::<N, _, _>(out, a, |x| power(x, 4)),
+        -1 => map::<N, _, _>(out, a, |x| power(x, -1)),
+        -2 => map::<N, _, _>(out, a, |x| power(x, -2)),
+        n => first::<N, _>(out, lanes, |lane| power(a.0[lane], n)),
     }
 }
 
 /// The second where the first is not zero, else the third.
 #[inline(always)]
-pub(crate) fn selection<T: Copy>(c: &Block<f64>, a: &Block<T>, b: &Block<T>, undefined: T) -> Block<T> {
-    std::array::from_fn(|lane| select(c[lane], a[lane], b[lane], undefined))
+pub(crate) fn selection<const N: usize, T: Copy>(
+    out: &mut Block<T>,
+    condition: &Block<f64>,
+    a: &Block<T>,
+    b: &Block<T>,
+    undefined: T,
+) {
+    for lane in 0..N {
+        out.0[lane] = select(condition.0[lane], a.0[lane], b.0[lane], undefined);
+    }
 }
 
-/// A complex operation of one argument, on the first lanes at least.
-pub(crate) fn complex_unary(operation: Unary, a: &Block<C>, lanes: usize) -> Block<C> {
-    first(lanes, |lane| complex::unary(operation, a[lane]))
+/// A complex operation of one argument.
+pub(crate) fn complex_unary<const N: usize>(
+    operation: Unary,
+    out: &mut Block<C>,
+    a: &Block<C>,
+    lanes: usize,
+) {
+    first::<N, _>(out, lanes, |lane| complex::unary(operation, a.0[lane]));
 }
 
-/// An operation of one complex argument whose value is real, on the first lanes at least.
-pub(crate) fn real_of_complex(operation: Unary, a: &Block<C>, lanes: usize) -> Block<f64> {
-    first(lanes, |lane| complex::real_unary(operation, a[lane]))
+/// An operation of one complex argument whose value is real.
+pub(crate) fn real_of_complex<const N: usize>(
+    operation: Unary,
+    out: &mut Block<f64>,
+    a: &Block<C>,
+    lanes: usize,
+) {
+    first::<N, _>(out, lanes, |lane| complex::real_unary(operation, a.0[lane]));
 }
 
-/// A complex operation of two arguments, on the first lanes at least.
-pub(crate) fn complex_binary(operation: Binary, a: &Block<C>, b: &Block<C>, lanes: usize) -> Block<C> {
+/// A complex operation of two arguments.
+pub(crate) fn complex_binary<const N: usize>(
+    operation: Binary,
+    out: &mut Block<C>,
+    a: &Block<C>,
+    b: &Block<C>,
+    lanes: usize,
+) {
     match operation {
-        Binary::Pow => first(lanes, |lane| complex::pow(a[lane], b[lane])),
-        other => arithmetic(other, a, b),
+        Binary::Pow => first::<N, _>(out, lanes, |lane| complex::pow(a.0[lane], b.0[lane])),
+        other => arithmetic::<N, _, _>(other, out, a, b),
     }
 }
 
 /// + − × ÷, one argument of which may be real: by real arithmetic, without products by a zero imaginary part.
-pub(crate) fn arithmetic<A, B>(operation: Binary, a: &Block<A>, b: &Block<B>) -> Block<C>
-where
+pub(crate) fn arithmetic<const N: usize, A, B>(
+    operation: Binary,
+    out: &mut Block<C>,
+    a: &Block<A>,
+    b: &Block<B>,
+) where
     A: Copy + Add<B, Output = C> + Sub<B, Output = C> + Mul<B, Output = C> + Div<B, Output = C>,
     B: Copy,
 {
     match operation {
-        Binary::Add => map2(a, b, |a, b| a + b),
-        Binary::Sub => map2(a, b, |a, b| a - b),
-        Binary::Mul => map2(a, b, |a, b| a * b),
-        _ => map2(a, b, |a, b| a / b),
+        Binary::Add => map2::<N, _, _, _>(out, a, b, |a, b| a + b),
+        Binary::Sub => map2::<N, _, _, _>(out, a, b, |a, b| a - b),
+        Binary::Mul => map2::<N, _, _, _>(out, a, b, |a, b| a * b),
+        _ => map2::<N, _, _, _>(out, a, b, |a, b| a / b),
     }
 }
 
 /// Whether two complex numbers are equal, or not.
-pub(crate) fn comparison(operation: Binary, a: &Block<C>, b: &Block<C>) -> Block<f64> {
-    map2(a, b, |a, b| complex::compare(operation, a, b))
+pub(crate) fn comparison<const N: usize>(
+    operation: Binary,
+    out: &mut Block<f64>,
+    a: &Block<C>,
+    b: &Block<C>,
+) {
+    map2::<N, _, _, _>(out, a, b, |a, b| complex::compare(operation, a, b));
 }
 
-/// zⁿ, on the first lanes at least.
-pub(crate) fn complex_powers(n: i32, a: &Block<C>, lanes: usize) -> Block<C> {
-    first(lanes, |lane| a[lane].powi(n))
+/// zⁿ.
+pub(crate) fn complex_powers<const N: usize>(n: i32, out: &mut Block<C>, a: &Block<C>, lanes: usize) {
+    first::<N, _>(out, lanes, |lane| a.0[lane].powi(n));
 }
 
 /// Real numbers as complex ones.
-pub(crate) fn promoted(a: &Block<f64>) -> Block<C> {
-    map(a, C::from)
+pub(crate) fn promoted<const N: usize>(out: &mut Block<C>, a: &Block<f64>) {
+    map::<N, _, _>(out, a, C::from);
 }
