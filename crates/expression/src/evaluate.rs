@@ -3,7 +3,7 @@
 use crate::graph::Kind;
 use crate::lanes::{self, Block, LANES};
 use crate::operation::Operation;
-use crate::program::{Program, Step};
+use crate::program::{Action, Program, Step};
 use num_complex::Complex;
 use std::cell::RefCell;
 
@@ -56,14 +56,14 @@ impl Program {
 
     /// The real values, one a lane.
     pub fn fill(&self, columns: &[Column<'_>], out: &mut [f64]) {
-        self.blocks(columns, out, |registers, out| out.copy_from_slice(&registers.real[self.root].0[..out.len()]));
+        self.blocks(columns, out, |registers, out| copy(&registers.real[self.root], out));
     }
 
     /// The values as complex numbers, one a lane.
     pub fn fill_complex(&self, columns: &[Column<'_>], out: &mut [C]) {
         self.blocks(columns, out, |registers, out| match self.kind {
             Kind::Real => out.iter_mut().zip(&registers.real[self.root].0).for_each(|(out, x)| *out = C::from(x)),
-            Kind::Complex => out.copy_from_slice(&registers.complex[self.root].0[..out.len()]),
+            Kind::Complex => copy(&registers.complex[self.root], out),
         });
     }
 
@@ -78,6 +78,16 @@ impl Program {
                 registers.batch::<LANES, T>(self, columns, out, take);
             }
         });
+    }
+}
+
+/// The first lanes; 16 or 64 as moves of known length, which need no call.
+#[inline(always)]
+fn copy<T: Copy>(block: &Block<T>, out: &mut [T]) {
+    match out.len() {
+        SHORT => out.copy_from_slice(&block.0[..SHORT]),
+        LANES => out.copy_from_slice(&block.0),
+        lanes => out.copy_from_slice(&block.0[..lanes]),
     }
 }
 
@@ -175,7 +185,13 @@ impl Step {
         lanes: usize,
     ) {
         let [a, b, c] = self.arguments;
-        match self.operation {
+        let operation = match self.action {
+            Action::One(operation) => operation,
+            Action::Two(first, second) => {
+                return lanes::fused::<N>(first, second, out, [&real[a], &real[b], &real[c]]);
+            }
+        };
+        match operation {
             Operation::Unary(operation) if self.real_arguments[0] => {
                 lanes::unary::<N>(operation, out, &real[a], lanes);
             }
@@ -200,7 +216,8 @@ impl Step {
     ) {
         let [a, b, c] = self.arguments;
         let undefined = C::new(f64::NAN, f64::NAN);
-        match self.operation {
+        let Action::One(operation) = self.action else { return }; // two are always real
+        match operation {
             Operation::Unary(operation) => lanes::complex_unary::<N>(operation, out, &complex[a], lanes),
             Operation::Binary(operation) => match self.real_arguments {
                 [true, ..] => lanes::arithmetic::<N, _, _>(operation, out, &real[a], &complex[b]),

@@ -1,6 +1,7 @@
 //! One operation on a block of lanes: loops of fixed length, which the compiler turns into vector instructions.
 
 use crate::complex;
+use crate::fuse::Outer;
 use crate::operation::{Binary, Unary, power, select};
 use num_complex::Complex;
 use std::ops::{Add, Div, Mul, Sub};
@@ -80,6 +81,57 @@ pub(crate) fn binary<const N: usize>(
         };
     }
     run!(Add, Sub, Mul, Div, Min, Max, Less, LessEqual, Equal, NotEqual, And, Or)
+}
+
+/// `second` of c and of what `first` makes of a and b.
+#[inline(always)]
+pub(crate) fn fused<const N: usize>(
+    first: Binary,
+    second: Outer,
+    out: &mut Block<f64>,
+    arguments: [&Block<f64>; 3],
+) {
+    macro_rules! run {
+        ($($first:ident),*) => {
+            match first {
+                $(Binary::$first => then::<N>(second, out, arguments, |a, b| Binary::$first.at(a, b)),)*
+                other => then::<N>(second, out, arguments, |a, b| other.at(a, b)),
+            }
+        };
+    }
+    run!(Add, Sub, Mul, Div, Min, Max)
+}
+
+#[inline(always)]
+fn then<const N: usize>(
+    second: Outer,
+    out: &mut Block<f64>,
+    arguments: [&Block<f64>; 3],
+    first: impl Fn(f64, f64) -> f64,
+) {
+    match second {
+        Outer::Add => map3::<N>(out, arguments, |a, b, c| first(a, b) + c),
+        Outer::Sub => map3::<N>(out, arguments, |a, b, c| first(a, b) - c),
+        Outer::SubFrom => map3::<N>(out, arguments, |a, b, c| c - first(a, b)),
+        Outer::Mul => map3::<N>(out, arguments, |a, b, c| first(a, b) * c),
+        Outer::Div => map3::<N>(out, arguments, |a, b, c| first(a, b) / c),
+        Outer::DivInto => map3::<N>(out, arguments, |a, b, c| c / first(a, b)),
+        Outer::Square => map3::<N>(out, arguments, |a, b, _| power(first(a, b), 2)),
+        Outer::Abs => map3::<N>(out, arguments, |a, b, _| first(a, b).abs()),
+        Outer::Neg => map3::<N>(out, arguments, |a, b, _| -first(a, b)),
+    }
+}
+
+/// f of three, of the first N lanes.
+#[inline(always)]
+fn map3<const N: usize>(
+    out: &mut Block<f64>,
+    [a, b, c]: [&Block<f64>; 3],
+    f: impl Fn(f64, f64, f64) -> f64,
+) {
+    for lane in 0..N {
+        out.0[lane] = f(a.0[lane], b.0[lane], c.0[lane]);
+    }
 }
 
 /// xⁿ.

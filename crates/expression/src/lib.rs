@@ -5,6 +5,7 @@ mod error;
 mod evaluate;
 mod formula;
 mod functions;
+mod fuse;
 mod graph;
 mod lanes;
 mod names;

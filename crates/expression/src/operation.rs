@@ -188,37 +188,25 @@ impl Binary {
             Binary::Pow => a.powf(b),
             Binary::Mod => modulo(a, b),
             Binary::Atan2 => a.atan2(b),
-            // f64::min would hide a NaN
-            Binary::Min => {
-                if a < b || a.is_nan() {
-                    a
-                } else {
-                    b
-                }
-            }
-            Binary::Max => {
-                if a > b || a.is_nan() {
-                    a
-                } else {
-                    b
-                }
-            }
-            Binary::Less => truth(a < b, a.is_nan() || b.is_nan()),
-            Binary::LessEqual => truth(a <= b, a.is_nan() || b.is_nan()),
-            Binary::Equal => truth(a == b, a.is_nan() || b.is_nan()),
-            Binary::NotEqual => truth(a != b, a.is_nan() || b.is_nan()),
+            // f64::min would hide a NaN; a < b is false for one, and leaves that of b
+            Binary::Min => spread(a, if a < b { a } else { b }),
+            Binary::Max => spread(a, if a > b { a } else { b }),
+            Binary::Less => truth(a < b, a.is_nan() | b.is_nan()),
+            Binary::LessEqual => truth(a <= b, a.is_nan() | b.is_nan()),
+            Binary::Equal => truth(a == b, a.is_nan() | b.is_nan()),
+            Binary::NotEqual => truth(a != b, a.is_nan() | b.is_nan()),
             Binary::And => {
                 if a == 0.0 {
                     0.0
                 } else {
-                    truth(b != 0.0, a.is_nan() || b.is_nan())
+                    truth(b != 0.0, a.is_nan() | b.is_nan())
                 }
             }
             Binary::Or => {
                 if a != 0.0 && !a.is_nan() {
                     1.0
                 } else {
-                    truth(b != 0.0, a.is_nan() || b.is_nan())
+                    truth(b != 0.0, a.is_nan() | b.is_nan())
                 }
             }
             Binary::BesselJ => special::bessel_j(a, b),
@@ -270,6 +258,12 @@ pub(crate) fn select<T: Copy>(c: f64, a: T, b: T, undefined: T) -> T {
     } else {
         b
     }
+}
+
+/// `value`, unless `a` is NaN.
+#[inline(always)]
+fn spread(a: f64, value: f64) -> f64 {
+    if a.is_nan() { a } else { value }
 }
 
 #[inline(always)]

@@ -1,15 +1,24 @@
 //! A graph becomes a list of steps, each of which fills a register of its own.
 
+use crate::fuse::{Fusion, Outer, fusions};
 use crate::graph::{Graph, Kind, Node};
-use crate::operation::Operation;
+use crate::operation::{Binary, Operation};
 use num_complex::Complex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// One operation: on the registers of its arguments, into its own.
+/// What a step does.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Action {
+    One(Operation),
+    /// The first two arguments combined, then the third.
+    Two(Binary, Outer),
+}
+
+/// One action: on the registers of its arguments, into its own.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Step {
-    pub operation: Operation,
-    /// Registers, as many as the operation has arguments; the rest is not read.
+    pub action: Action,
+    /// Registers, as many as the action has arguments; the rest is not read.
     pub arguments: [usize; 3],
     pub register: usize,
     /// Whether the result is real, and whether each argument is: real and complex numbers have registers apart.
@@ -53,15 +62,19 @@ impl Program {
             depends: facts.depends,
         };
         let mut registers = vec![0; root + 1];
-        for node in reachable(graph, root) {
-            registers[node] = program.compile(graph, node, &registers);
+        let order = reachable(graph, root);
+        let fusions = fusions(graph, &order);
+        let mut swallowed = vec![false; root + 1];
+        fusions.iter().flatten().for_each(|fusion| swallowed[fusion.inner] = true);
+        for node in order.into_iter().filter(|node| !swallowed[*node]) {
+            registers[node] = program.compile(graph, node, fusions[node], &registers);
         }
         program.root = registers[root];
         program
     }
 
     /// Adds a node whose arguments have been added; its register.
-    fn compile(&mut self, graph: &Graph, node: Node, registers: &[usize]) -> usize {
+    fn compile(&mut self, graph: &Graph, node: Node, fusion: Option<Fusion>, registers: &[usize]) -> usize {
         let facts = graph.facts(node);
         if let Operation::Variable(column) = facts.operation {
             return column;
@@ -72,14 +85,21 @@ impl Program {
             (Operation::Constant(value), Kind::Real) => self.constants.push((register, Complex::from(value).re)),
             (Operation::Constant(value), Kind::Complex) => self.complex_constants.push((register, value.into())),
             (operation, kind) => {
+                let (action, nodes) = match fusion {
+                    Some(Fusion { inner, first, second, other }) => {
+                        let inner = &graph.facts(inner).arguments;
+                        (Action::Two(first, second), vec![inner[0], inner[1], other])
+                    }
+                    None => (Action::One(operation), facts.arguments.clone()),
+                };
                 let mut arguments = [0; 3];
                 let mut real_arguments = [true; 3];
-                for (k, argument) in facts.arguments.iter().enumerate() {
-                    arguments[k] = registers[*argument];
-                    real_arguments[k] = graph.is_real(*argument);
+                for (k, argument) in nodes.into_iter().enumerate() {
+                    arguments[k] = registers[argument];
+                    real_arguments[k] = graph.is_real(argument);
                 }
                 let (real, depends) = (kind == Kind::Real, facts.depends);
-                self.steps.push(Step { operation, arguments, register, real, real_arguments, depends });
+                self.steps.push(Step { action, arguments, register, real, real_arguments, depends });
             }
         }
         register
