@@ -56,38 +56,29 @@ impl Program {
 
     /// The real values, one a lane.
     pub fn fill(&self, columns: &[Column<'_>], out: &mut [f64]) {
-        self.blocks(columns, out, |registers, out| copy(&registers.real[self.root], out));
+        REGISTERS.with_borrow_mut(|registers| {
+            registers.prepare(self);
+            if out.len() <= SHORT {
+                registers.batch::<SHORT>(self, columns, out);
+            } else {
+                registers.batch::<LANES>(self, columns, out);
+            }
+        });
     }
 
     /// The values as complex numbers, one a lane.
     pub fn fill_complex(&self, columns: &[Column<'_>], out: &mut [C]) {
-        self.blocks(columns, out, |registers, out| match self.kind {
-            Kind::Real => out.iter_mut().zip(&registers.real[self.root].0).for_each(|(out, x)| *out = C::from(x)),
-            Kind::Complex => copy(&registers.complex[self.root], out),
-        });
-    }
-
-    /// Runs the program over a batch; `take` takes the results of each block.
-    #[inline(always)]
-    fn blocks<T>(&self, columns: &[Column<'_>], out: &mut [T], take: impl Fn(&Registers, &mut [T])) {
         REGISTERS.with_borrow_mut(|registers| {
             registers.prepare(self);
-            if out.len() <= SHORT {
-                registers.batch::<SHORT, T>(self, columns, out, take);
-            } else {
-                registers.batch::<LANES, T>(self, columns, out, take);
+            let varying = registers.uniform::<LANES>(self, columns);
+            for (block, out) in out.chunks_mut(LANES).enumerate() {
+                registers.partial::<LANES>(self, columns, varying, block * LANES, out.len());
+                match self.kind {
+                    Kind::Real => out.iter_mut().zip(&registers.real[self.root].0).for_each(|(out, x)| *out = x.into()),
+                    Kind::Complex => out.copy_from_slice(&registers.complex[self.root].0[..out.len()]),
+                }
             }
         });
-    }
-}
-
-/// The first lanes; 16 or 64 as moves of known length, which need no call.
-#[inline(always)]
-fn copy<T: Copy>(block: &Block<T>, out: &mut [T]) {
-    match out.len() {
-        SHORT => out.copy_from_slice(&block.0[..SHORT]),
-        LANES => out.copy_from_slice(&block.0),
-        lanes => out.copy_from_slice(&block.0[..lanes]),
     }
 }
 
@@ -118,18 +109,36 @@ impl Registers {
     fn point(&mut self, program: &Program, point: &[f64]) {
         self.prepare(program);
         self.real.iter_mut().zip(point).for_each(|(register, value)| register.0[0] = *value);
-        program.steps.iter().for_each(|step| self.run::<1>(step, 1));
+        program.steps.iter().for_each(|step| self.run::<1>(step, 1, Window::NONE));
     }
 
-    /// What is the same in all lanes once; what is not, for each block of N.
+    /// The real values of a batch, in blocks of N.
     #[inline(always)]
-    fn batch<const N: usize, T>(
-        &mut self,
-        program: &Program,
-        columns: &[Column<'_>],
-        out: &mut [T],
-        take: impl Fn(&Registers, &mut [T]),
-    ) {
+    fn batch<const N: usize>(&mut self, program: &Program, columns: &[Column<'_>], out: &mut [f64]) {
+        let varying = self.uniform::<N>(program, columns);
+        let whole = match program.steps.split_last() {
+            Some((last, before)) if last.depends & varying != 0 => {
+                let (blocks, _) = out.as_chunks_mut::<N>();
+                for (block, out) in blocks.iter_mut().enumerate() {
+                    let window = Window { columns, start: block * N };
+                    for step in before.iter().filter(|step| step.depends & varying != 0) {
+                        self.run::<N>(step, N, window);
+                    }
+                    last.real_value::<N>(out, &self.real, &self.complex, N, window);
+                }
+                blocks.len() * N
+            }
+            _ => 0,
+        };
+        for (block, out) in out[whole..].chunks_mut(N).enumerate() {
+            self.partial::<N>(program, columns, varying, whole + block * N, out.len());
+            out.copy_from_slice(&self.real[program.root].0[..out.len()]);
+        }
+    }
+
+    /// What is the same in all lanes; then bit k tells whether column k is not.
+    #[inline(always)]
+    fn uniform<const N: usize>(&mut self, program: &Program, columns: &[Column<'_>]) -> u64 {
         let mut varying = 0;
         for (k, column) in columns.iter().enumerate() {
             match column {
@@ -138,99 +147,126 @@ impl Registers {
             }
         }
         for step in program.steps.iter().filter(|step| step.depends & varying == 0) {
-            self.run::<N>(step, 1);
+            self.run::<N>(step, 1, Window::NONE);
         }
-        for (block, out) in out.chunks_mut(N).enumerate() {
-            self.load::<N>(columns, block * N, out.len());
-            for step in program.steps.iter().filter(|step| step.depends & varying != 0) {
-                self.run::<N>(step, out.len());
-            }
-            take(self, out);
-        }
+        varying
     }
 
-    /// The columns that differ from lane to lane, from lane `start` on.
-    #[inline(always)]
-    fn load<const N: usize>(&mut self, columns: &[Column<'_>], start: usize, lanes: usize) {
+    /// What is not, for the first lanes of the block that starts at lane `start`.
+    fn partial<const N: usize>(
+        &mut self,
+        program: &Program,
+        columns: &[Column<'_>],
+        varying: u64,
+        start: usize,
+        lanes: usize,
+    ) {
         for (register, column) in self.real.iter_mut().zip(columns) {
             if let Column::Each(values) = column {
-                match values[start..].first_chunk::<N>() {
-                    Some(block) => register.0[..N].copy_from_slice(block),
-                    None => register.0[..lanes].copy_from_slice(&values[start..start + lanes]),
-                }
+                register.0[..lanes].copy_from_slice(&values[start..start + lanes]);
             }
+        }
+        for step in program.steps.iter().filter(|step| step.depends & varying != 0) {
+            self.run::<N>(step, lanes, Window::NONE);
         }
     }
 
     /// One step, on the first lanes at least and on no more than N. Its register lies behind those that it reads.
     #[inline(always)]
-    fn run<const N: usize>(&mut self, step: &Step, lanes: usize) {
+    fn run<const N: usize>(&mut self, step: &Step, lanes: usize, window: Window<'_>) {
         if step.real {
             let (before, rest) = self.real.split_at_mut(step.register);
-            step.real_value::<N>(&mut rest[0], before, &self.complex, lanes);
+            step.real_value::<N>(rest[0].first_mut(), before, &self.complex, lanes, window);
         } else {
             let (before, rest) = self.complex.split_at_mut(step.register);
-            step.complex_value::<N>(&mut rest[0], &self.real, before, lanes);
+            step.complex_value::<N>(rest[0].first_mut(), &self.real, before, lanes, window);
         }
     }
 }
 
-impl Step {
+/// Where a whole block of the columns can be read in place.
+#[derive(Clone, Copy)]
+struct Window<'a> {
+    columns: &'a [Column<'a>],
+    start: usize,
+}
+
+impl<'a> Window<'a> {
+    /// The columns are in their registers.
+    const NONE: Window<'static> = Window { columns: &[], start: 0 };
+
+    /// An argument: a column in place, or a register.
     #[inline(always)]
+    fn real<'b, const N: usize>(self, registers: &'b [Block<f64>], argument: usize) -> &'b [f64; N]
+    where
+        'a: 'b,
+    {
+        if let Some(Column::Each(values)) = self.columns.get(argument)
+            && let Some(values) = values[self.start..].first_chunk()
+        {
+            return values;
+        }
+        registers[argument].first()
+    }
+}
+
+impl Step {
+    #[inline]
     fn real_value<const N: usize>(
         &self,
-        out: &mut Block<f64>,
+        out: &mut [f64; N],
         real: &[Block<f64>],
         complex: &[Block<C>],
         lanes: usize,
+        window: Window<'_>,
     ) {
         let [a, b, c] = self.arguments;
+        let real = |argument: usize| window.real::<N>(real, argument);
+        let complex = |argument: usize| complex[argument].first::<N>();
         let operation = match self.action {
             Action::One(operation) => operation,
-            Action::Two(first, second) => {
-                return lanes::fused::<N>(first, second, out, [&real[a], &real[b], &real[c]]);
-            }
+            Action::Two(first, second) => return lanes::fused(first, second, out, [real(a), real(b), real(c)]),
         };
         match operation {
-            Operation::Unary(operation) if self.real_arguments[0] => {
-                lanes::unary::<N>(operation, out, &real[a], lanes);
-            }
-            Operation::Unary(operation) => lanes::real_of_complex::<N>(operation, out, &complex[a], lanes),
+            Operation::Unary(operation) if self.real_arguments[0] => lanes::unary(operation, out, real(a), lanes),
+            Operation::Unary(operation) => lanes::real_of_complex(operation, out, complex(a), lanes),
             Operation::Binary(operation) if self.real_arguments[0] => {
-                lanes::binary::<N>(operation, out, &real[a], &real[b], lanes);
+                lanes::binary(operation, out, real(a), real(b), lanes);
             }
-            Operation::Binary(operation) => lanes::comparison::<N>(operation, out, &complex[a], &complex[b]),
-            Operation::Power(n) => lanes::powers::<N>(n, out, &real[a], lanes),
-            Operation::Select => lanes::selection::<N, _>(out, &real[a], &real[b], &real[c], f64::NAN),
+            Operation::Binary(operation) => lanes::comparison(operation, out, complex(a), complex(b)),
+            Operation::Power(n) => lanes::powers(n, out, real(a), lanes),
+            Operation::Select => lanes::selection(out, real(a), real(b), real(c), f64::NAN),
             // these are no steps of real value
-            Operation::Constant(_) | Operation::Variable(_) | Operation::Promote => out.0.fill(f64::NAN),
+            Operation::Constant(_) | Operation::Variable(_) | Operation::Promote => out.fill(f64::NAN),
         }
     }
 
+    #[inline(never)]
     fn complex_value<const N: usize>(
         &self,
-        out: &mut Block<C>,
+        out: &mut [C; N],
         real: &[Block<f64>],
         complex: &[Block<C>],
         lanes: usize,
+        window: Window<'_>,
     ) {
         let [a, b, c] = self.arguments;
+        let real = |argument: usize| window.real::<N>(real, argument);
+        let complex = |argument: usize| complex[argument].first::<N>();
         let undefined = C::new(f64::NAN, f64::NAN);
         let Action::One(operation) = self.action else { return }; // two are always real
         match operation {
-            Operation::Unary(operation) => lanes::complex_unary::<N>(operation, out, &complex[a], lanes),
+            Operation::Unary(operation) => lanes::complex_unary(operation, out, complex(a), lanes),
             Operation::Binary(operation) => match self.real_arguments {
-                [true, ..] => lanes::arithmetic::<N, _, _>(operation, out, &real[a], &complex[b]),
-                [_, true, _] => lanes::arithmetic::<N, _, _>(operation, out, &complex[a], &real[b]),
-                _ => lanes::complex_binary::<N>(operation, out, &complex[a], &complex[b], lanes),
+                [true, false, _] => lanes::arithmetic(operation, out, real(a), complex(b)),
+                [false, true, _] => lanes::arithmetic(operation, out, complex(a), real(b)),
+                _ => lanes::complex_binary(operation, out, complex(a), complex(b), lanes),
             },
-            Operation::Power(n) => lanes::complex_powers::<N>(n, out, &complex[a], lanes),
-            Operation::Select => {
-                lanes::selection::<N, _>(out, &real[a], &complex[b], &complex[c], undefined);
-            }
-            Operation::Promote => lanes::promoted::<N>(out, &real[a]),
+            Operation::Power(n) => lanes::complex_powers(n, out, complex(a), lanes),
+            Operation::Select => lanes::selection(out, real(a), complex(b), complex(c), undefined),
+            Operation::Promote => lanes::promoted(out, real(a)),
             // these are no steps
-            Operation::Constant(_) | Operation::Variable(_) => out.0.fill(undefined),
+            Operation::Constant(_) | Operation::Variable(_) => out.fill(undefined),
         }
     }
 }
