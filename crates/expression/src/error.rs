@@ -15,7 +15,11 @@ use thiserror::Error;
 /// assert_eq!(error.span(), 0..4);
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-pub struct ParseError {
+pub struct ParseError(Box<Details>);
+
+/// Behind a pointer, since a result is as large as its error.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Details {
     kind: ErrorKind,
     span: Range<usize>,
     excerpt: Excerpt,
@@ -104,25 +108,25 @@ impl ParseError {
     /// The error at `span`, a range of bytes of `text`.
     pub(crate) fn new(kind: ErrorKind, span: Range<usize>, text: &str) -> Self {
         let excerpt = Excerpt::new(text, &span);
-        ParseError { kind, span, excerpt }
+        ParseError(Box::new(Details { kind, span, excerpt }))
     }
 
     /// What is wrong.
     pub fn kind(&self) -> &ErrorKind {
-        &self.kind
+        &self.0.kind
     }
 
     /// Where: bytes of the formula's text.
     pub fn span(&self) -> Range<usize> {
-        self.span.clone()
+        self.0.span.clone()
     }
 }
 
 impl fmt::Display for ParseError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Excerpt { number, line, before, width } = &self.excerpt;
+        let Excerpt { number, line, before, width } = &self.0.excerpt;
         let gutter = " ".repeat(number.to_string().len());
-        writeln!(f, "{}", self.kind)?;
+        writeln!(f, "{}", self.0.kind)?;
         writeln!(f, "  {number} | {line}")?;
         write!(f, "  {gutter} | {}{}", " ".repeat(*before), "^".repeat(*width))
     }
@@ -152,7 +156,8 @@ impl Excerpt {
         let shown = before - skipped + width + CONTEXT;
         let rest = || text[start..end].chars().skip(skipped);
         let line: String = rest().take(shown).map(|c| if c.is_control() { ' ' } else { c }).collect();
-        let (left, right) = (if skipped > 0 { "…" } else { "" }, if rest().nth(shown).is_some() { "…" } else { "" });
+        let (left, right) =
+            (if skipped > 0 { "…" } else { "" }, if rest().nth(shown).is_some() { "…" } else { "" });
         Excerpt {
             number: text[..start].matches('\n').count() + 1,
             line: format!("{left}{line}{right}"),

@@ -74,7 +74,10 @@ impl Program {
             for (block, out) in out.chunks_mut(LANES).enumerate() {
                 registers.partial::<LANES>(self, columns, varying, block * LANES, out.len());
                 match self.kind {
-                    Kind::Real => out.iter_mut().zip(&registers.real[self.root].0).for_each(|(out, x)| *out = x.into()),
+                    Kind::Real => {
+                        let values = registers.real[self.root].0.iter();
+                        out.iter_mut().zip(values).for_each(|(out, value)| *out = value.into());
+                    }
                     Kind::Complex => out.copy_from_slice(&registers.complex[self.root].0[..out.len()]),
                 }
             }
@@ -225,10 +228,14 @@ impl Step {
         let complex = |argument: usize| complex[argument].first::<N>();
         let operation = match self.action {
             Action::One(operation) => operation,
-            Action::Two(first, second) => return lanes::fused(first, second, out, [real(a), real(b), real(c)]),
+            Action::Two(first, second) => {
+                return lanes::fused(first, second, out, [real(a), real(b), real(c)]);
+            }
         };
         match operation {
-            Operation::Unary(operation) if self.real_arguments[0] => lanes::unary(operation, out, real(a), lanes),
+            Operation::Unary(operation) if self.real_arguments[0] => {
+                lanes::unary(operation, out, real(a), lanes);
+            }
             Operation::Unary(operation) => lanes::real_of_complex(operation, out, complex(a), lanes),
             Operation::Binary(operation) if self.real_arguments[0] => {
                 lanes::binary(operation, out, real(a), real(b), lanes);

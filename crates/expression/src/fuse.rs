@@ -88,7 +88,8 @@ fn candidates(graph: &Graph, node: Node) -> [Option<Fusion>; 2] {
 /// The operation of a node, if it is one that can come first.
 fn quick(graph: &Graph, node: Node) -> Option<Binary> {
     use Binary::{Add, Div, Max, Min, Mul, Sub};
-    let Operation::Binary(operation @ (Add | Sub | Mul | Div | Min | Max)) = graph.facts(node).operation else {
+    let Operation::Binary(operation @ (Add | Sub | Mul | Div | Min | Max)) = graph.facts(node).operation
+    else {
         return None;
     };
     graph.facts(node).arguments.iter().all(|argument| graph.is_real(*argument)).then_some(operation)

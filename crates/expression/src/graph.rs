@@ -209,7 +209,9 @@ impl Graph {
         match operation {
             Operation::Constant(value) => Complex::from(value).re >= 0.0,
             Operation::Variable(_) | Operation::Promote => false,
-            Operation::Unary(Unary::Tanh | Unary::Atan | Unary::Asinh | Unary::Sinh | Unary::Real) => known(0),
+            Operation::Unary(Unary::Tanh | Unary::Atan | Unary::Asinh | Unary::Sinh | Unary::Real) => {
+                known(0)
+            }
             Operation::Unary(operation) => operation.is_non_negative(),
             Operation::Binary(Binary::Add | Binary::Mul | Binary::Div | Binary::Min) => known(0) && known(1),
             Operation::Binary(Binary::Max) => known(0) || known(1),
@@ -231,7 +233,9 @@ impl Graph {
         let from_real = |x: f64| Complex::new(x, 0.0);
         Some(match (operation, values.as_slice()) {
             (Operation::Unary(unary), [z]) if real => from_real(unary.at(z.re)),
-            (Operation::Unary(unary), [z]) if unary.yields_real() => from_real(complex::real_unary(unary, *z)),
+            (Operation::Unary(unary), [z]) if unary.yields_real() => {
+                from_real(complex::real_unary(unary, *z))
+            }
             (Operation::Unary(unary), [z]) => complex::unary(unary, *z),
             (Operation::Power(n), [z]) if real => from_real(power(z.re, n)),
             (Operation::Power(n), [z]) => z.powi(n),

@@ -74,7 +74,7 @@ pub(crate) fn unary<const N: usize>(operation: Unary, out: &mut [f64; N], a: &[f
             }
         };
     }
-    run!(quick: Neg, Not, Abs, Sqrt; slow: Exp, Ln)
+    run!(quick: Neg, Not, Abs, Sqrt; slow: Exp, Ln);
 }
 
 /// A real operation of two arguments.
@@ -94,7 +94,7 @@ pub(crate) fn binary<const N: usize>(
             }
         };
     }
-    run!(Add, Sub, Mul, Div, Min, Max, Less, LessEqual, Equal, NotEqual, And, Or)
+    run!(Add, Sub, Mul, Div, Min, Max, Less, LessEqual, Equal, NotEqual, And, Or);
 }
 
 /// `second` of c and of what `first` makes of a and b.
@@ -113,7 +113,7 @@ pub(crate) fn fused<const N: usize>(
             }
         };
     }
-    run!(Add, Sub, Mul, Div, Min, Max)
+    run!(Add, Sub, Mul, Div, Min, Max);
 }
 
 #[inline(always)]
@@ -138,11 +138,7 @@ fn then<const N: usize>(
 
 /// f of three, of the first N lanes.
 #[inline(always)]
-fn map3<const N: usize>(
-    out: &mut [f64; N],
-    [a, b, c]: [&[f64; N]; 3],
-    f: impl Fn(f64, f64, f64) -> f64,
-) {
+fn map3<const N: usize>(out: &mut [f64; N], [a, b, c]: [&[f64; N]; 3], f: impl Fn(f64, f64, f64) -> f64) {
     for lane in 0..N {
         out[lane] = f(a[lane], b[lane], c[lane]);
     }
@@ -176,12 +172,7 @@ pub(crate) fn selection<const N: usize, T: Copy>(
 }
 
 /// A complex operation of one argument.
-pub(crate) fn complex_unary<const N: usize>(
-    operation: Unary,
-    out: &mut [C; N],
-    a: &[C; N],
-    lanes: usize,
-) {
+pub(crate) fn complex_unary<const N: usize>(operation: Unary, out: &mut [C; N], a: &[C; N], lanes: usize) {
     first::<N, _>(out, lanes, |lane| complex::unary(operation, a[lane]));
 }
 
@@ -210,12 +201,8 @@ pub(crate) fn complex_binary<const N: usize>(
 }
 
 /// + − × ÷, one argument of which may be real: by real arithmetic, without products by a zero imaginary part.
-pub(crate) fn arithmetic<const N: usize, A, B>(
-    operation: Binary,
-    out: &mut [C; N],
-    a: &[A; N],
-    b: &[B; N],
-) where
+pub(crate) fn arithmetic<const N: usize, A, B>(operation: Binary, out: &mut [C; N], a: &[A; N], b: &[B; N])
+where
     A: Copy + Add<B, Output = C> + Sub<B, Output = C> + Mul<B, Output = C> + Div<B, Output = C>,
     B: Copy,
 {
@@ -228,12 +215,7 @@ pub(crate) fn arithmetic<const N: usize, A, B>(
 }
 
 /// Whether two complex numbers are equal, or not.
-pub(crate) fn comparison<const N: usize>(
-    operation: Binary,
-    out: &mut [f64; N],
-    a: &[C; N],
-    b: &[C; N],
-) {
+pub(crate) fn comparison<const N: usize>(operation: Binary, out: &mut [f64; N], a: &[C; N], b: &[C; N]) {
     map2::<N, _, _, _>(out, a, b, |a, b| complex::compare(operation, a, b));
 }
 

@@ -50,7 +50,8 @@ impl Names<'_> {
 
     fn values(&self) -> impl Iterator<Item = &str> {
         let constants = ["pi", "e", "i"];
-        let given = self.variables.iter().copied().chain(self.parameters.iter().map(|(name, _)| name.as_str()));
+        let given =
+            self.variables.iter().copied().chain(self.parameters.iter().map(|(name, _)| name.as_str()));
         given.chain(constants)
     }
 }

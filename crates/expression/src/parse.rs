@@ -133,7 +133,9 @@ impl Parser<'_> {
     /// a ^ b ^ c = a ^ (b ^ c), with signs in the exponents.
     fn power(&mut self) -> Parsed<Operand> {
         let base = self.primary()?;
-        let Token { kind: TokenKind::Symbol("^"), span } = self.tokens[self.at].clone() else { return Ok(base) };
+        let Token { kind: TokenKind::Symbol("^"), span } = self.tokens[self.at].clone() else {
+            return Ok(base);
+        };
         self.at += 1;
         let exponent = self.deeper(&span, Self::signed)?;
         self.combine("^", base, exponent)
@@ -307,7 +309,9 @@ impl Parser<'_> {
 
     fn unexpected(&self) -> ParseError {
         let instead = match self.tokens[self.at].kind {
-            TokenKind::Symbol(",") => Some("arguments belong in a function's parentheses, and decimals behind a `.`"),
+            TokenKind::Symbol(",") => {
+                Some("arguments belong in a function's parentheses, and decimals behind a `.`")
+            }
             TokenKind::Symbol("!") => Some("for a factorial, write `gamma(n+1)`"),
             _ => None,
         };

@@ -81,26 +81,28 @@ impl Program {
         }
         let register = self.registers[facts.kind as usize];
         self.registers[facts.kind as usize] += 1;
-        match (facts.operation, facts.kind) {
-            (Operation::Constant(value), Kind::Real) => self.constants.push((register, Complex::from(value).re)),
-            (Operation::Constant(value), Kind::Complex) => self.complex_constants.push((register, value.into())),
-            (operation, kind) => {
-                let (action, nodes) = match fusion {
-                    Some(Fusion { inner, first, second, other }) => {
-                        let inner = &graph.facts(inner).arguments;
-                        (Action::Two(first, second), vec![inner[0], inner[1], other])
-                    }
-                    None => (Action::One(operation), facts.arguments.clone()),
-                };
-                let mut arguments = [0; 3];
-                let mut real_arguments = [true; 3];
-                for (k, argument) in nodes.into_iter().enumerate() {
-                    arguments[k] = registers[argument];
-                    real_arguments[k] = graph.is_real(argument);
-                }
-                let (real, depends) = (kind == Kind::Real, facts.depends);
-                self.steps.push(Step { action, arguments, register, real, real_arguments, depends });
+        let step = |action: Action, nodes: &[Node]| {
+            let mut arguments = [0; 3];
+            let mut real_arguments = [true; 3];
+            for (k, argument) in nodes.iter().enumerate() {
+                arguments[k] = registers[*argument];
+                real_arguments[k] = graph.is_real(*argument);
             }
+            let (real, depends) = (facts.kind == Kind::Real, facts.depends);
+            Step { action, arguments, register, real, real_arguments, depends }
+        };
+        match (facts.operation, facts.kind, fusion) {
+            (Operation::Constant(value), Kind::Real, _) => {
+                self.constants.push((register, Complex::from(value).re));
+            }
+            (Operation::Constant(value), Kind::Complex, _) => {
+                self.complex_constants.push((register, value.into()));
+            }
+            (_, _, Some(Fusion { inner, first, second, other })) => {
+                let inner = &graph.facts(inner).arguments;
+                self.steps.push(step(Action::Two(first, second), &[inner[0], inner[1], other]));
+            }
+            (operation, _, None) => self.steps.push(step(Action::One(operation), &facts.arguments)),
         }
         register
     }

@@ -97,7 +97,8 @@ fn integer_power(graph: &mut Graph, a: Node, n: i32) -> Node {
         0 => graph.real_constant(1.0),
         1 => a,
         n => {
-            let even = negated(graph, a).or_else(|| graph.argument_of(Unary::Abs, a).filter(|b| graph.is_real(*b)));
+            let even =
+                negated(graph, a).or_else(|| graph.argument_of(Unary::Abs, a).filter(|b| graph.is_real(*b)));
             match even.filter(|_| n % 2 == 0) {
                 Some(b) => graph.power(b, n),
                 None => graph.power(a, n),
@@ -115,4 +116,3 @@ fn half_power(graph: &mut Graph, a: Node, exponent: f64) -> Result<Option<Node>,
     let whole = if exponent.abs() == 0.5 { root } else { graph.binary(Binary::Mul, a, root)? };
     Ok(Some(if exponent < 0.0 { graph.power(whole, -1) } else { whole }))
 }
-

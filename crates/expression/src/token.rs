@@ -22,9 +22,8 @@ pub(crate) enum TokenKind {
 }
 
 /// The longer ones first: `<=` is not `<`, `=`.
-const SYMBOLS: [&str; 18] = [
-    "**", "<=", ">=", "==", "!=", "&&", "||", "+", "-", "*", "/", "^", "<", ">", "!", "(", ")", ",",
-];
+const SYMBOLS: [&str; 18] =
+    ["**", "<=", ">=", "==", "!=", "&&", "||", "+", "-", "*", "/", "^", "<", ">", "!", "(", ")", ","];
 
 /// The tokens of `text`, an end behind them. `i` after a number is its unit if `imaginary`.
 pub(crate) fn tokens(text: &str, imaginary: bool) -> Result<Vec<Token>, ParseError> {
@@ -74,7 +73,8 @@ fn number(text: &str, at: usize, imaginary: bool) -> Result<(TokenKind, usize), 
     length += exponent(&rest[length..]);
     let behind = &rest[length..];
     if behind.starts_with('.') {
-        let end = at + length + behind.find(|c: char| !(c == '.' || c.is_ascii_digit())).unwrap_or(behind.len());
+        let end =
+            at + length + behind.find(|c: char| !(c == '.' || c.is_ascii_digit())).unwrap_or(behind.len());
         return Err(ParseError::new(ErrorKind::Number { text: text[at..end].into() }, at..end, text));
     }
     let value: f64 = rest[..length].parse().unwrap_or(f64::INFINITY);

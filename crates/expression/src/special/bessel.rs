@@ -161,7 +161,8 @@ struct Weights {
 
 impl Weights {
     fn new(order: f64, last: usize) -> Self {
-        let ratio = (0..last).fold(libm::tgamma(order), |ratio, k| ratio * (order + k as f64) / (k + 1) as f64);
+        let ratio =
+            (0..last).fold(libm::tgamma(order), |ratio, k| ratio * (order + k as f64) / (k + 1) as f64);
         Weights { order, k: last, ratio }
     }
 
