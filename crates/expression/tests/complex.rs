@@ -1,5 +1,4 @@
 //! Formulas with the imaginary unit.
-#![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 use expression::{Column, Formula};
 use num_complex::Complex;
@@ -21,6 +20,9 @@ fn the_unit_and_its_powers() {
         ("i*i", -1.0, 0.0),
         ("1/i", 0.0, -1.0),
         ("sqrt(-4)+0*i", 0.0, 2.0),
+        ("sqrt(max(-4*x/x,-9))+0*i", 0.0, 2.0),
+        ("sqrt(min(4*x/x,-9))+0*i", 0.0, 3.0),
+        ("(-8*x/x)^(1/3)+0*i", 1.0, 3_f64.sqrt()),
         ("(1+i)*(1-i)", 2.0, 0.0),
         ("(x+i*y)^2", 0.7 * 0.7 - 0.4 * 0.4, 2.0 * 0.7 * 0.4),
         ("conj(x+i*y)", 0.7, -0.4),

@@ -1,5 +1,4 @@
 //! What a formula means.
-#![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 use expression::{Formula, functions};
 use std::f64::consts::{E, PI};
@@ -38,6 +37,7 @@ fn operators_bind_as_in_mathematics() {
         ("10-x-y", 5.0),
         ("24/x/y", 4.0),
         ("24/x*y", 36.0),
+        ("y/10", 0.3), // as 3 × 0.1 it would be 0.30000000000000004
         ("-x^2", -4.0),
         ("(-x)^2", 4.0),
         ("2^-1", 0.5),

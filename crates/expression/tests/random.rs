@@ -1,5 +1,4 @@
 //! Formulas that nobody would write: nothing panics, and a batch is what its points are.
-#![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 use expression::{Column, Formula, functions};
 use num_complex::Complex;
