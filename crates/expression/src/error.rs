@@ -28,7 +28,7 @@ struct Details {
 /// What is wrong with a formula.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
-#[allow(missing_docs, reason = "the fields are what the messages name")]
+#[expect(missing_docs, reason = "the fields are what the messages name")]
 pub enum ErrorKind {
     /// Nothing but blanks.
     #[error("the formula is empty")]
@@ -66,6 +66,9 @@ pub enum ErrorKind {
     /// The wrong number of arguments.
     #[error("`{signature}` takes {expected}, not {found}")]
     Arity { signature: String, expected: String, found: usize },
+    /// An order for which a function is not defined here.
+    #[error("the order of `{name}` is 0, 1, 2, …")]
+    Order { name: String },
     /// Two values side by side.
     #[error("an operator is missing; to multiply, write `{left}*{right}`")]
     SideBySide { left: String, right: String },

@@ -249,6 +249,12 @@ impl Parser<'_> {
 
     fn apply(&mut self, function: &Function, arguments: &[Operand]) -> Parsed<Node> {
         let node = |k: usize| arguments[k].node;
+        let order = arguments.first().and_then(|order| self.graph.real_value(order.node));
+        if matches!(function.meaning, Meaning::Binary(Binary::ExpInt))
+            && order.is_some_and(|n| n < 0.0 || n.fract() != 0.0)
+        {
+            return Err(self.error(ErrorKind::Order { name: function.name().into() }, &arguments[0].span));
+        }
         let made = match function.meaning {
             Meaning::Unary(operation) => self.graph.unary(operation, node(0)),
             Meaning::Binary(operation) => self.graph.binary(operation, node(0), node(1)),

@@ -107,3 +107,12 @@ fn the_difference_is_a_column_of_the_batch() {
     formula.fill(&[Column::Same(0.3), Column::Each(&[0.3; 3]), Column::Each(&d)], &mut out);
     assert_eq!(out, d.map(|d: f64| 1.0 / d.sqrt()));
 }
+
+#[test]
+fn either_variable_may_come_first() {
+    let formula =
+        Formula::with_difference("x-y + if(x<y,100,200)", &["y", "t", "x"], &[], ("x", "y")).unwrap();
+    assert_eq!(formula.columns(), 4);
+    assert_eq!(formula.at(&[0.3, 0.0, 0.3, 1.0]), 201.0);
+    assert_eq!(formula.at(&[0.3, 0.0, 0.3, -1.0]), 99.0);
+}

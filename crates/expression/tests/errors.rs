@@ -39,6 +39,8 @@ fn every_error_points_at_its_characters() {
         ("1+sin()", "  ^^^^^", "`sin(z)` takes one argument, not 0"),
         ("if(x,1)", "^^^^^^^", "`if(c,a,b)` takes three arguments, not 2"),
         ("atan2(x,1,2)", "^^^^^^^^^^^^", "`atan2(y,x)` takes two arguments, not 3"),
+        ("expint(-1,x)", "       ^^", "the order of `expint` is 0, 1, 2, …"),
+        ("expint(1/2,x)", "       ^^^", "the order of `expint` is 0, 1, 2, …"),
         ("x+", "  ^", "a value is missing before the end of the formula"),
         ("x*/2", "  ^", "a value is missing before `/`"),
         ("()", " ^", "a value is missing before `)`"),

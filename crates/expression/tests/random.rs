@@ -141,3 +141,20 @@ fn no_text_panics() {
     }
     assert!(formulas > 1000, "{formulas}");
 }
+
+#[test]
+fn threads_may_share_a_formula() {
+    let product = Formula::parse("(x+1)*y", &VARIABLES).unwrap();
+    let sum = Formula::parse("(x+2)+y", &VARIABLES).unwrap();
+    std::thread::scope(|scope| {
+        for x in [1.0, 2.0, 3.0] {
+            let (product, sum) = (&product, &sum);
+            scope.spawn(move || {
+                // in turns: each finds the registers as the other left them
+                for y in [4.0, 5.0, 6.0] {
+                    assert_eq!([product.at(&[x, y]), sum.at(&[x, y])], [(x + 1.0) * y, x + 2.0 + y]);
+                }
+            });
+        }
+    });
+}
