@@ -6,28 +6,29 @@ use super::galerkin::composite_gauss;
 use super::integrals::{images, transform_resolved};
 use super::{Approximation, Discrete, Integrals};
 use crate::equation::{Equation, EquationError, Function, Scalar, Source};
+use crate::product::Product;
 use crate::space::{Basis, combination, resolve};
 use std::sync::Arc;
 
 /// F_jk = ⟨L_k, K(x_j, ·)⟩ = (A L_k)(x_j) and s_j = (A f)(x_j), (1.33): the matrix is collocation's, the source is A f.
 /// With the nodes' own rule for the integrals, s = F f, and f + γ is Nyström's solution.
 pub fn discrete<T: Scalar>(
-    equation: &Equation<'_, T>,
+    product: &Product<'_, '_, T>,
     basis: &dyn Basis,
     integrals: Integrals<'_>,
 ) -> Result<Discrete<T>, EquationError> {
-    let matrix = images(equation, basis, basis.nodes(), integrals)?;
-    let f = source_function(equation);
-    let resolved = resolve(&f, basis.breaks(), MORE_PANELS);
+    let equation = product.equation();
+    let matrix = images(product, basis, basis.nodes(), integrals)?;
+    let resolved = resolve(&source_function(equation), basis.breaks(), MORE_PANELS);
     let image = |a: usize, x: f64| match integrals {
-        Integrals::Accurate => transform_resolved(equation, (a, x), &resolved).map(|image| image.value),
+        Integrals::Accurate => transform_resolved(product, (a, x), &resolved).map(|image| image.value),
         Integrals::Rule(_) => (0..equation.components())
-            .map(|b| Ok(integrals.row(equation, (a, b), x, &[])?.apply(|y| equation.source(b, y))))
+            .map(|b| Ok(integrals.row(product, (a, b), x, &[])?.apply(|y| equation.source(b, y))))
             .sum(),
     };
     let points = (0..equation.components()).flat_map(|a| basis.nodes().iter().map(move |x| (a, *x)));
     let source = points.map(|(a, x)| image(a, x)).collect::<Result<_, _>>()?;
-    Ok(Discrete::new(matrix, source))
+    Ok(Discrete::new(&matrix, source))
 }
 
 /// How many more panels than the space's pieces a source may take.
@@ -40,10 +41,11 @@ pub(super) fn source_function<'e, T: Scalar>(equation: &'e Equation<'_, T>) -> F
 
 /// The degenerate kernel that interpolates K in x at the nodes of the space.
 pub fn solve<'e, T: Scalar>(
-    equation: &'e Equation<'e, T>,
+    product: &Product<'e, '_, T>,
     basis: Arc<dyn Basis>,
 ) -> Result<Approximation<'e, T>, EquationError> {
-    let coefficients = discrete(equation, &*basis, Integrals::Accurate)?.solve()?;
+    let equation = product.equation();
+    let coefficients = discrete(product, &*basis, Integrals::Accurate)?.solve()?;
     let (n, breaks) = (basis.dim(), basis.breaks().to_vec());
     let (unknowns, gamma) = (coefficients.values.len(), coefficients.values);
     let value = move |a: usize, x: &f64| {
@@ -116,5 +118,5 @@ fn separable<T: Scalar>(equation: &Equation<'_, T>, terms: &[Term<'_, T>], ends:
         }
     }
     let source = lines.iter_mut().filter_map(Vec::pop).collect();
-    Discrete::new(lines, source)
+    Discrete::new(&lines, source)
 }

@@ -2,7 +2,8 @@
 
 use super::integrals::{images, source};
 use super::{Approximation, Discrete, Integrals};
-use crate::equation::{Equation, EquationError, Scalar};
+use crate::equation::{EquationError, Scalar};
+use crate::product::Product;
 use crate::quadrature::{Quadrature, gauss_legendre};
 use crate::space::Basis;
 use faer::Mat;
@@ -11,9 +12,10 @@ use std::sync::Arc;
 
 /// F = G⁻¹⟨A u_j, u_i⟩ and s = G⁻¹⟨f, u_i⟩ with G = ⟨u_j, u_i⟩: (1.56), brought to the form φ_n = P_n f + P_n A φ_n of (1.53).
 pub fn discrete<T: Scalar>(
-    equation: &Equation<'_, T>,
+    product: &Product<'_, '_, T>,
     basis: &dyn Basis,
 ) -> Result<Discrete<T>, EquationError> {
+    let equation = product.equation();
     let (m, n) = (equation.components(), basis.dim());
     let outer = composite_gauss(basis.breaks());
     let mut mass = Mat::<T>::zeros(n, n);
@@ -21,7 +23,7 @@ pub fn discrete<T: Scalar>(
     let mut moments = vec![vec![T::ZERO; m * n + 1]; m * n];
     let mut u = Vec::with_capacity(n);
     for (points, weights) in outer.nodes.chunks(POINTS_AT_ONCE).zip(outer.weights.chunks(POINTS_AT_ONCE)) {
-        let lines = images(equation, basis, points, Integrals::Accurate)?;
+        let lines = images(product, basis, points, Integrals::Accurate)?;
         for (q, (x, weight)) in points.iter().zip(weights).enumerate() {
             let first = basis.values(*x, &mut u);
             for (i, u_i) in u.iter().enumerate() {
@@ -68,14 +70,14 @@ fn projected<T: Scalar>(mass: &Mat<T>, moments: &[Vec<T>]) -> Discrete<T> {
         matrix.extend((0..n).map(|i| (0..width).map(|j| solved[(i, j)]).collect()));
     }
     let source = matrix.iter_mut().filter_map(Vec::pop).collect();
-    Discrete::new(matrix, source)
+    Discrete::new(&matrix, source)
 }
 
 /// Galerkin's method in this space.
 pub fn solve<'e, T: Scalar>(
-    equation: &'e Equation<'e, T>,
+    product: &Product<'e, '_, T>,
     basis: Arc<dyn Basis>,
 ) -> Result<Approximation<'e, T>, EquationError> {
-    let coefficients = discrete(equation, &*basis)?.solve()?;
-    Ok(Approximation::in_space(equation.components(), basis, coefficients))
+    let coefficients = discrete(product, &*basis)?.solve()?;
+    Ok(Approximation::in_space(product.equation().components(), basis, coefficients))
 }

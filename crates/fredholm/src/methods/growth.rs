@@ -3,35 +3,40 @@
 use super::residual::{Judgement, judge};
 use super::{Approximation, Method, Setup, Yardstick};
 use super::{collocation, degenerate, galerkin, iterated, least_squares, nystrom};
-use crate::equation::{Answer, Equation, EquationError, Scalar, Status};
+use crate::equation::{Answer, EquationError, Scalar, Status};
+use crate::product::Product;
+use std::sync::Arc;
 
 /// The answer for this n.
 pub(super) fn at<'e, T: Scalar>(
-    equation: &'e Equation<'e, T>,
+    product: &Arc<Product<'e, 'e, T>>,
     setup: &Setup,
     yardstick: &Yardstick,
     n: usize,
 ) -> Result<Answer<'e, f64, T>, EquationError> {
-    let approximation = approximate(equation, setup, n)?;
-    let judgement = judge(equation, &approximation, yardstick)?;
+    let approximation = approximate(product, setup, n)?;
+    let judgement = judge(product, &approximation, yardstick)?;
     Ok(answer(approximation, judgement, setup, described(setup)))
 }
 
 /// The answer of the least n, doubled from the first, that meets the tolerance; or the best one.
 pub(super) fn grow<'e, T: Scalar>(
-    equation: &'e Equation<'e, T>,
+    product: &Arc<Product<'e, 'e, T>>,
     setup: &Setup,
     yardstick: &Yardstick,
 ) -> Result<Answer<'e, f64, T>, EquationError> {
-    let mut n = FIRST;
+    let mut n = match setup.method {
+        Method::Nystrom => FIRST * setup.rule.parts(),
+        _ => FIRST,
+    };
     let mut best: Result<(Approximation<'e, T>, Judgement), EquationError> = Err(EquationError::Method(
         format!("{} has more unknowns from the start than it may have", setup.method),
     ));
-    while unknowns(setup, n) * equation.components() <= largest(setup.method) {
+    while unknowns(setup, n) * product.equation().components() <= largest(setup.method) {
         // A coarse discretisation may be singular where finer ones are not.
-        match approximate(equation, setup, n) {
+        match approximate(product, setup, n) {
             Ok(approximation) => {
-                let judgement = judge(equation, &approximation, yardstick)?;
+                let judgement = judge(product, &approximation, yardstick)?;
                 let better = best.as_ref().map_or(true, |(_, best)| judgement.error < best.error);
                 if better {
                     best = Ok((approximation, judgement));
@@ -83,23 +88,24 @@ fn described(setup: &Setup) -> String {
 }
 
 fn approximate<'e, T: Scalar>(
-    equation: &'e Equation<'e, T>,
+    product: &Arc<Product<'e, 'e, T>>,
     setup: &Setup,
     n: usize,
 ) -> Result<Approximation<'e, T>, EquationError> {
+    let equation = product.equation();
     let (a, b) = (equation.interval().a(), equation.interval().b());
     check_size(setup, n, equation.components())?;
     let basis = || setup.space.basis(a, b, n);
     match setup.method {
         Method::Nystrom => nystrom::solve(equation, setup.rule.quadrature(a, b, n)?),
-        Method::Degenerate => degenerate::solve(equation, basis()),
-        Method::Collocation => collocation::solve(equation, basis()),
-        Method::Galerkin => galerkin::solve(equation, basis()),
-        Method::LeastSquares => least_squares::solve(equation, basis()),
+        Method::Degenerate => degenerate::solve(product, basis()),
+        Method::Collocation => collocation::solve(product, basis()),
+        Method::Galerkin => galerkin::solve(product, basis()),
+        Method::LeastSquares => least_squares::solve(product, basis()),
         Method::IteratedCollocation => {
-            Ok(iterated::iterated(equation, &collocation::solve(equation, basis())?))
+            Ok(iterated::iterated(product, &collocation::solve(product, basis())?))
         }
-        Method::IteratedGalerkin => Ok(iterated::iterated(equation, &galerkin::solve(equation, basis())?)),
+        Method::IteratedGalerkin => Ok(iterated::iterated(product, &galerkin::solve(product, basis())?)),
         Method::Neumann | Method::Successive => {
             Err(EquationError::Method(format!("{} solves no linear system", setup.method)))
         }
@@ -108,12 +114,12 @@ fn approximate<'e, T: Scalar>(
 
 fn unknowns(setup: &Setup, n: usize) -> usize {
     match setup.method {
-        Method::Nystrom => n,
+        Method::Nystrom => setup.rule.nodes(n),
         _ => setup.space.dim(n),
     }
 }
 
-/// The first n, of elements or nodes. An even one: Simpson's rule asks for that.
+/// The first n, of elements or nodes, or of parts by as many as the rule takes at a time.
 const FIRST: usize = 4;
 
 /// Up to how many unknowns n grows by itself: where an answer takes some seconds. Galerkin's method computes integrals at 16

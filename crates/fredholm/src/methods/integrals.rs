@@ -1,7 +1,7 @@
 //! (A u_j)(x) = Σ_q κ_q(x) u_j(y_q): the integrals that a semi-discrete method leaves to be computed (paper, §1.3.3, remark).
 
 use crate::equation::{Equation, EquationError, Scalar};
-use crate::product::{self, Row};
+use crate::product::{Product, Row};
 use crate::quadrature::Quadrature;
 use crate::space::{Basis, Resolved, combination};
 use rayon::prelude::*;
@@ -9,7 +9,7 @@ use rayon::prelude::*;
 /// How ∫ K(x, y) u_j(y) dy is computed.
 #[derive(Clone, Copy, Debug)]
 pub enum Integrals<'a> {
-    /// To rounding, by the rule that varies with x: [`product::row`].
+    /// To rounding, by the rule that varies with x: [`Product::row`].
     Accurate,
     /// By one rule for every x. With a space's nodes for its nodes, every method becomes Nyström's.
     Rule(&'a Quadrature<f64>),
@@ -19,24 +19,28 @@ impl Integrals<'_> {
     /// The rule for K_ab(x, ·) and functions that are polynomials between the `breaks`.
     pub(super) fn row<T: Scalar>(
         self,
-        equation: &Equation<'_, T>,
+        product: &Product<'_, '_, T>,
         (a, b): (usize, usize),
         x: f64,
         breaks: &[f64],
     ) -> Result<Row<T>, EquationError> {
-        let row = match self {
-            Self::Accurate => product::row(equation, (a, b), x, breaks),
-            Self::Rule(rule) => {
-                let mut weights = sampled(equation, (a, b), x, &rule.nodes)?;
-                weights.iter_mut().zip(&rule.weights).for_each(|(k, w)| *k = *k * *w);
-                Row { nodes: rule.nodes.clone(), weights, error: 0.0 }
-            }
-        };
-        match row.weights.iter().position(|weight| !weight.finite()) {
-            Some(q) => Err(not_finite(x, row.nodes[q], row.weights[q])),
-            None => Ok(row),
+        match self {
+            Self::Accurate => product.row((a, b), x, breaks),
+            Self::Rule(rule) => sampled_row(product.equation(), (a, b), x, rule),
         }
     }
+}
+
+/// The rule with weights α_q K_ab(x, y_q).
+pub(super) fn sampled_row<T: Scalar>(
+    equation: &Equation<'_, T>,
+    (a, b): (usize, usize),
+    x: f64,
+    rule: &Quadrature<f64>,
+) -> Result<Row<T>, EquationError> {
+    let mut weights = sampled(equation, (a, b), x, &rule.nodes)?;
+    weights.iter_mut().zip(&rule.weights).for_each(|(k, w)| *k = *k * *w);
+    Ok(Row { nodes: rule.nodes.clone(), weights, error: 0.0 })
 }
 
 /// K_ab(x, y_j), or an error that tells where it is not finite.
@@ -78,28 +82,28 @@ pub(super) fn sources<T: Scalar>(equation: &Equation<'_, T>, x: &[f64]) -> Resul
 
 /// For each component a and then each point x: the line of numbers (A_ab u_j)(x), b by b and j by j.
 pub(super) fn images<T: Scalar>(
-    equation: &Equation<'_, T>,
+    product: &Product<'_, '_, T>,
     basis: &dyn Basis,
     points: &[f64],
     integrals: Integrals<'_>,
 ) -> Result<Vec<Vec<T>>, EquationError> {
     let lines: Vec<(usize, f64)> =
-        (0..equation.components()).flat_map(|a| points.iter().map(move |x| (a, *x))).collect();
-    lines.par_iter().map(|&(a, x)| image(equation, basis, a, x, integrals)).collect()
+        (0..product.equation().components()).flat_map(|a| points.iter().map(move |x| (a, *x))).collect();
+    lines.par_iter().map(|&(a, x)| image(product, basis, a, x, integrals)).collect()
 }
 
 fn image<T: Scalar>(
-    equation: &Equation<'_, T>,
+    product: &Product<'_, '_, T>,
     basis: &dyn Basis,
     a: usize,
     x: f64,
     integrals: Integrals<'_>,
 ) -> Result<Vec<T>, EquationError> {
     let n = basis.dim();
-    let mut line = vec![T::ZERO; equation.components() * n];
+    let mut line = vec![T::ZERO; product.equation().components() * n];
     let mut u = Vec::with_capacity(n);
     for (b, part) in line.chunks_exact_mut(n).enumerate() {
-        let row = integrals.row(equation, (a, b), x, basis.breaks())?;
+        let row = integrals.row(product, (a, b), x, basis.breaks())?;
         for (y, weight) in row.nodes.iter().zip(&row.weights) {
             let first = basis.values(*y, &mut u);
             part[first..].iter_mut().zip(&u).for_each(|(entry, u)| *entry += *weight * *u);
@@ -119,7 +123,7 @@ pub(super) struct Transformed<T> {
 
 /// (A g)_a(x) for g = Σ_j c_j u_j, the c_j component by component.
 pub(super) fn transform<T: Scalar>(
-    equation: &Equation<'_, T>,
+    product: &Product<'_, '_, T>,
     (a, x): (usize, f64),
     basis: &dyn Basis,
     c: &[T],
@@ -127,7 +131,7 @@ pub(super) fn transform<T: Scalar>(
     let mut sum = Transformed { value: T::ZERO, error: 0.0 };
     let mut u = Vec::with_capacity(basis.dim());
     for (b, c) in c.chunks_exact(basis.dim()).enumerate() {
-        let row = Integrals::Accurate.row(equation, (a, b), x, basis.breaks())?;
+        let row = Integrals::Accurate.row(product, (a, b), x, basis.breaks())?;
         for (y, weight) in row.nodes.iter().zip(&row.weights) {
             sum.value += *weight * combination(basis, c, *y, &mut u);
         }
@@ -138,11 +142,11 @@ pub(super) fn transform<T: Scalar>(
 
 /// (A g)_a(x) for a function known by its values on panels.
 pub(super) fn transform_resolved<T: Scalar>(
-    equation: &Equation<'_, T>,
+    product: &Product<'_, '_, T>,
     at: (usize, f64),
     g: &Resolved<T>,
 ) -> Result<Transformed<T>, EquationError> {
-    transform(equation, at, &g.panels, &g.values)
+    transform(product, at, &g.panels, &g.values)
 }
 
 /// What a closure that must return a number gives where there is none: the residual, computed with checks, tells why.

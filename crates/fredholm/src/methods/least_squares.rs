@@ -8,7 +8,8 @@ use super::discrete::{Coefficients, check_condition};
 use super::galerkin::composite_gauss;
 use super::integrals::{images, sources};
 use super::{Approximation, Integrals};
-use crate::equation::{Equation, EquationError, Scalar};
+use crate::equation::{EquationError, Scalar};
+use crate::product::Product;
 use crate::space::Basis;
 use faer::Mat;
 use faer::linalg::solvers::{DenseSolveCore, SolveLstsq};
@@ -16,12 +17,12 @@ use std::sync::Arc;
 
 /// Least squares in this space. The condition is that of the triangular factor R, in L².
 pub fn solve<'e, T: Scalar>(
-    equation: &'e Equation<'e, T>,
+    product: &Product<'e, '_, T>,
     basis: Arc<dyn Basis>,
 ) -> Result<Approximation<'e, T>, EquationError> {
     let outer = composite_gauss(basis.breaks());
     let (points, n) = (outer.nodes.len(), basis.dim());
-    let mut lines = images(equation, &*basis, &outer.nodes, Integrals::Accurate)?;
+    let mut lines = images(product, &*basis, &outer.nodes, Integrals::Accurate)?;
     let mut u = Vec::with_capacity(n);
     for (index, line) in lines.iter_mut().enumerate() {
         let (a, q) = (index / points, index % points);
@@ -30,7 +31,7 @@ pub fn solve<'e, T: Scalar>(
         let first = a * n + basis.values(outer.nodes[q], &mut u);
         line[first..].iter_mut().zip(&u).for_each(|(entry, u)| *entry += T::from(*u));
     }
-    let f = sources(equation, &outer.nodes)?;
+    let f = sources(product.equation(), &outer.nodes)?;
     let root = |index: usize| outer.weights[index % points].sqrt();
     let weighted = Mat::from_fn(lines.len(), lines[0].len(), |i, j| lines[i][j] * root(i));
     let right = Mat::from_fn(lines.len(), 1, |i, _| f[i] * root(i));
@@ -39,7 +40,7 @@ pub fn solve<'e, T: Scalar>(
     check_condition(condition)?;
     let solution = factors.solve_lstsq(&right);
     let values = (0..lines[0].len()).map(|j| solution[(j, 0)]).collect();
-    Ok(Approximation::in_space(equation.components(), basis, Coefficients { values, condition }))
+    Ok(Approximation::in_space(product.equation().components(), basis, Coefficients { values, condition }))
 }
 
 /// ‖R‖∞ ‖R⁻¹‖∞.

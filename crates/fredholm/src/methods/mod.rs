@@ -60,6 +60,7 @@ pub use setup::{Method, Setup, UnknownMethod};
 pub use yardstick::Yardstick;
 
 use crate::equation::{Answer, Equation, EquationError, Function, Scalar};
+use crate::product::Product;
 use crate::space::{Basis, combination};
 use discrete::Coefficients;
 use std::sync::Arc;
@@ -106,13 +107,14 @@ pub fn solve<'e, T: Scalar>(
             setup.method
         )));
     }
-    let yardstick = Yardstick::new(equation)?;
+    let product = Arc::new(Product::new(equation, None)?);
+    let yardstick = Yardstick::new(&product)?;
     match (setup.method, setup.n) {
-        (Method::Neumann | Method::Successive, _) => series::solve(equation, setup, yardstick),
+        (Method::Neumann | Method::Successive, _) => series::solve(&product, setup, yardstick),
         // Of an equation that is singular itself, a coarse discretisation would give one answer of many, or of none.
         _ if yardstick.condition() > NEARLY_SINGULAR => Err(discrete::singular(yardstick.condition())),
-        (_, Some(n)) => growth::at(equation, setup, &yardstick, n),
-        (_, None) => growth::grow(equation, setup, &yardstick),
+        (_, Some(n)) => growth::at(&product, setup, &yardstick, n),
+        (_, None) => growth::grow(&product, setup, &yardstick),
     }
 }
 

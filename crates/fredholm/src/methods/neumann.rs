@@ -6,13 +6,15 @@
 use super::degenerate::source_function;
 use super::integrals::{images, or_nan, sampled, transform, transform_resolved};
 use super::{Approximation, Integrals, Yardstick, operator_norm, spectral_radius};
-use crate::equation::{Equation, EquationError, Function, Scalar};
+use crate::equation::{EquationError, Function, Scalar};
+use crate::product::Product;
 use crate::space::{Basis, Panels, Resolved, resolve};
+use std::sync::Arc;
 
 /// The Neumann series of a source f: its terms A^k f on panels that resolve them.
 #[derive(Debug)]
 pub struct Series<'e, T> {
-    equation: &'e Equation<'e, T>,
+    product: Arc<Product<'e, 'e, T>>,
     yardstick: Yardstick,
     norm: f64,
     spectral_radius: f64,
@@ -30,32 +32,33 @@ const MORE_PANELS: usize = 48;
 
 impl<'e, T: Scalar> Series<'e, T> {
     /// Σ_k A^k f for the equation's own source.
-    pub fn new(equation: &'e Equation<'e, T>, yardstick: Yardstick) -> Result<Self, EquationError> {
-        Self::of(equation, yardstick, source_function(equation))
+    pub fn new(product: &Arc<Product<'e, 'e, T>>, yardstick: Yardstick) -> Result<Self, EquationError> {
+        Self::of(product, yardstick, source_function(product.equation()))
     }
 
     /// Σ_k A^k f for another source f.
     pub fn of(
-        equation: &'e Equation<'e, T>,
+        product: &Arc<Product<'e, 'e, T>>,
         yardstick: Yardstick,
         source: Function<'e, f64, T>,
     ) -> Result<Self, EquationError> {
+        let equation = product.equation();
         let ends = [equation.interval().a(), equation.interval().b()];
         let m = equation.components();
         let resolved_source = resolve(&source, &ends, MORE_PANELS);
         let image = |g: &Resolved<T>, breaks: &[f64]| {
-            let value = |a: usize, x: &f64| or_nan(transform_resolved(equation, (a, *x), g));
+            let value = |a: usize, x: &f64| or_nan(transform_resolved(product, (a, *x), g));
             resolve(&Function::new(m, value), breaks, MORE_PANELS)
         };
         let once = image(&resolved_source, &ends);
         let panels = image(&once, once.breaks()).panels;
         let points = (0..m).flat_map(|a| panels.nodes().iter().map(move |x| (a, *x)));
-        let first = points.map(|at| Ok(transform_resolved(equation, at, &resolved_source)?.value));
+        let first = points.map(|at| Ok(transform_resolved(product, at, &resolved_source)?.value));
         let first = first.collect::<Result<_, EquationError>>()?;
-        let matrix = images(equation, &panels, panels.nodes(), Integrals::Accurate)?;
-        let (norm, spectral_radius) = (operator_norm(equation)?, spectral_radius(equation)?);
+        let matrix = images(product, &panels, panels.nodes(), Integrals::Accurate)?;
+        let (norm, spectral_radius) = (operator_norm(product)?, spectral_radius(equation)?);
         Ok(Self {
-            equation,
+            product: product.clone(),
             yardstick,
             norm,
             spectral_radius,
@@ -109,7 +112,8 @@ impl<'e, T: Scalar> Series<'e, T> {
 
     /// φ_n = f + A (f + A f + … + A^{n−1} f). `unknowns` is n.
     pub fn partial_sum(self, n: usize) -> Approximation<'e, T> {
-        let (equation, m) = (self.equation, self.equation.components());
+        let equation = self.product.equation();
+        let (product, m) = (self.product.clone(), equation.components());
         let mut sum = vec![T::ZERO; self.first.len()];
         let mut term = self.first.clone();
         for k in 1..n {
@@ -124,10 +128,10 @@ impl<'e, T: Scalar> Series<'e, T> {
             let f = source.component(a, x);
             match n {
                 0 => f,
-                1 => f + or_nan(transform_resolved(equation, (a, *x), &first)),
+                1 => f + or_nan(transform_resolved(&product, (a, *x), &first)),
                 _ => {
-                    let early = or_nan(transform_resolved(equation, (a, *x), &first));
-                    f + early + or_nan(transform(equation, (a, *x), &later, &sum))
+                    let early = or_nan(transform_resolved(&product, (a, *x), &first));
+                    f + early + or_nan(transform(&product, (a, *x), &later, &sum))
                 }
             }
         };
@@ -146,17 +150,20 @@ fn largest<T: Scalar>(values: &[T]) -> f64 {
 
 /// k_0 = K, k_{n+1}(x, y) = ∫ K(x, z) k_n(z, y) dz: the kernel of A^{n+1} (paper, (1.19)–(1.20)).
 #[derive(Clone, Copy, Debug)]
-pub struct IteratedKernel<'e, T> {
-    equation: &'e Equation<'e, T>,
+pub struct IteratedKernel<'p, 'e, T> {
+    product: &'p Product<'e, 'e, T>,
     n: usize,
 }
 
 /// k_n of the equation's kernel.
-pub fn iterated_kernel<'e, T: Scalar>(equation: &'e Equation<'e, T>, n: usize) -> IteratedKernel<'e, T> {
-    IteratedKernel { equation, n }
+pub fn iterated_kernel<'p, 'e, T: Scalar>(
+    product: &'p Product<'e, 'e, T>,
+    n: usize,
+) -> IteratedKernel<'p, 'e, T> {
+    IteratedKernel { product, n }
 }
 
-impl<T: Scalar> IteratedKernel<'_, T> {
+impl<T: Scalar> IteratedKernel<'_, '_, T> {
     /// k_n(x, y).
     pub fn at(&self, x: f64, y: f64) -> Result<T, EquationError> {
         self.component((0, 0), x, y)
@@ -174,7 +181,7 @@ impl<T: Scalar> IteratedKernel<'_, T> {
 
     /// k_0(x, y) … k_n(x, y), of each the components a of column b.
     fn column(&self, b: usize, x: f64, y: f64) -> Result<Vec<Vec<T>>, EquationError> {
-        let equation = self.equation;
+        let (product, equation) = (self.product, self.product.equation());
         let (m, interval) = (equation.components(), equation.interval());
         let direct = |c: usize, z: f64| sampled(equation, (c, b), z, &[y]).map(|k| k[0]);
         let mut kernels = vec![(0..m).map(|c| direct(c, x)).collect::<Result<Vec<_>, _>>()?];
@@ -184,11 +191,11 @@ impl<T: Scalar> IteratedKernel<'_, T> {
         let start = Function::new(m, |c, z: &f64| direct(c, *z).unwrap_or(T::from(f64::NAN)));
         let mut before = resolve(&start, &breaks, MORE_PANELS);
         for k in 1..=self.n {
-            let values = (0..m).map(|a| Ok(transform_resolved(equation, (a, x), &before)?.value));
+            let values = (0..m).map(|a| Ok(transform_resolved(product, (a, x), &before)?.value));
             kernels.push(values.collect::<Result<Vec<_>, EquationError>>()?);
             if k < self.n {
                 let last = before.clone();
-                let next = |a: usize, z: &f64| or_nan(transform_resolved(equation, (a, *z), &last));
+                let next = |a: usize, z: &f64| or_nan(transform_resolved(product, (a, *z), &last));
                 before = resolve(&Function::new(m, next), &breaks, MORE_PANELS);
             }
         }

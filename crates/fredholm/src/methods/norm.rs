@@ -1,7 +1,7 @@
 //! ‖A‖∞ = max_x Σ_b ∫ |K_ab(x, y)| dy (paper, §1.1.1): below 1, the equation has one solution (§1.1.3).
 
-use super::Integrals;
-use crate::equation::{Equation, EquationError, Scalar};
+use crate::equation::{EquationError, Scalar};
+use crate::product::Product;
 use crate::space::equal_parts;
 
 /// Where ∫ |K(x, y)| dy is computed for its maximum, before that is searched more closely.
@@ -15,13 +15,14 @@ const PIECES: usize = 32;
 /// # Errors
 ///
 /// [`EquationError::KernelNotFinite`].
-pub fn operator_norm<T: Scalar>(equation: &Equation<'_, T>) -> Result<f64, EquationError> {
+pub fn operator_norm<T: Scalar>(product: &Product<'_, '_, T>) -> Result<f64, EquationError> {
+    let equation = product.equation();
     let interval = equation.interval();
     let breaks = equal_parts(interval.a(), interval.b(), PIECES);
     let points = equal_parts(interval.a(), interval.b(), SAMPLES - 1);
     let mut largest = 0.0_f64;
     for a in 0..equation.components() {
-        let at = |x: f64| absolute_integral(equation, a, x, &breaks);
+        let at = |x: f64| absolute_integral(product, a, x, &breaks);
         let values = points.iter().map(|x| at(*x)).collect::<Result<Vec<_>, _>>()?;
         let best = (0..SAMPLES).max_by(|i, j| values[*i].total_cmp(&values[*j])).unwrap_or(0);
         let around = (points[best.saturating_sub(1)], points[(best + 1).min(SAMPLES - 1)]);
@@ -32,12 +33,12 @@ pub fn operator_norm<T: Scalar>(equation: &Equation<'_, T>) -> Result<f64, Equat
 
 /// Σ_b ∫ |K_ab(x, y)| dy.
 fn absolute_integral<T: Scalar>(
-    equation: &Equation<'_, T>,
+    product: &Product<'_, '_, T>,
     a: usize,
     x: f64,
     breaks: &[f64],
 ) -> Result<f64, EquationError> {
-    let rows = (0..equation.components()).map(|b| Integrals::Accurate.row(equation, (a, b), x, breaks));
+    let rows = (0..product.equation().components()).map(|b| product.row((a, b), x, breaks));
     rows.map(|row| row.map(|row| row.weights.iter().map(|weight| weight.modulus()).sum::<f64>())).sum()
 }
 

@@ -2,8 +2,8 @@
 //!
 //! The values φ_n(x_j) solve (1.28) (whose last row has α_2, not α_1), and (1.29) is the returned function.
 
-use super::integrals::{sampled, sources};
-use super::{Approximation, Discrete, Integrals};
+use super::integrals::{sampled, sampled_row, sources};
+use super::{Approximation, Discrete};
 use crate::equation::{Equation, EquationError, Function, Scalar};
 use crate::quadrature::Quadrature;
 
@@ -14,12 +14,12 @@ pub fn discrete<T: Scalar>(
 ) -> Result<Discrete<T>, EquationError> {
     let m = equation.components();
     let line = |a: usize, x: f64| -> Result<Vec<T>, EquationError> {
-        let rows = (0..m).map(|b| Integrals::Rule(rule).row(equation, (a, b), x, &[]));
+        let rows = (0..m).map(|b| sampled_row(equation, (a, b), x, rule));
         Ok(rows.collect::<Result<Vec<_>, _>>()?.into_iter().flat_map(|row| row.weights).collect())
     };
     let points = (0..m).flat_map(|a| rule.nodes.iter().map(move |x| (a, *x)));
-    let matrix = points.map(|(a, x)| line(a, x)).collect::<Result<_, _>>()?;
-    Ok(Discrete::new(matrix, sources(equation, &rule.nodes)?))
+    let matrix = points.map(|(a, x)| line(a, x)).collect::<Result<Vec<_>, _>>()?;
+    Ok(Discrete::new(&matrix, sources(equation, &rule.nodes)?))
 }
 
 /// Nyström's method with this rule; its interpolant (1.29) is the solution.

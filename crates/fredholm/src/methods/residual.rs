@@ -5,6 +5,7 @@
 use super::integrals::{source, transform_resolved};
 use super::{Approximation, Yardstick};
 use crate::equation::{Equation, EquationError, Scalar};
+use crate::product::Product;
 use crate::space::resolve;
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -38,16 +39,17 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 ///
 /// Where source, kernel or solution are not finite.
 pub fn judge<T: Scalar>(
-    equation: &Equation<'_, T>,
+    product: &Product<'_, '_, T>,
     answer: &Approximation<'_, T>,
     yardstick: &Yardstick,
 ) -> Result<Judgement, EquationError> {
+    let equation = product.equation();
     let resolved = resolve(&answer.solution, &answer.breaks, MORE_PANELS);
     let points: Vec<(usize, f64)> = (0..equation.components())
         .flat_map(|a| points(equation, a).into_iter().map(move |x| (a, x)))
         .collect();
     let residual = |&(a, x): &(usize, f64)| -> Result<(f64, f64, f64), EquationError> {
-        let (f, image) = (source(equation, a, x)?, transform_resolved(equation, (a, x), &resolved)?);
+        let (f, image) = (source(equation, a, x)?, transform_resolved(product, (a, x), &resolved)?);
         let r = f + image.value - answer.solution.component(a, &x);
         if r.finite() {
             Ok((r.modulus(), image.error, f.modulus()))

@@ -4,7 +4,9 @@ use super::growth::answer;
 use super::neumann::Series;
 use super::residual::judge;
 use super::{Method, Setup, Yardstick};
-use crate::equation::{Answer, Equation, EquationError, Scalar, Status};
+use crate::equation::{Answer, EquationError, Scalar, Status};
+use crate::product::Product;
+use std::sync::Arc;
 
 /// The most terms that are summed: with a spectral radius of 0.997 they give 13 digits.
 const MOST: usize = 10_000;
@@ -16,11 +18,11 @@ const SEARCHED: usize = 50;
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 pub(super) fn solve<'e, T: Scalar>(
-    equation: &'e Equation<'e, T>,
+    product: &Arc<Product<'e, 'e, T>>,
     setup: &Setup,
     yardstick: Yardstick,
 ) -> Result<Answer<'e, f64, T>, EquationError> {
-    let series = Series::new(equation, yardstick)?;
+    let series = Series::new(product, yardstick)?;
     // n steps from φ_0 = 0 are the terms 0 … n − 1.
     let extra = usize::from(setup.method == Method::Successive);
     let n = match setup.n {
@@ -38,7 +40,7 @@ pub(super) fn solve<'e, T: Scalar>(
     let converges = series.converges();
     let mut approximation = series.partial_sum(n);
     approximation.unknowns += extra;
-    let judgement = judge(equation, &approximation, &yardstick)?;
+    let judgement = judge(product, &approximation, &yardstick)?;
     let mut answer = answer(approximation, judgement, setup, method);
     if !converges {
         answer.status = Status::ToleranceNotMet;

@@ -6,16 +6,19 @@
 use super::integrals::{or_nan, transform_resolved};
 use super::neumann::Series;
 use super::{Approximation, Yardstick};
-use crate::equation::{Equation, EquationError, Function, Scalar};
+use crate::equation::{EquationError, Function, Scalar};
+use crate::product::Product;
 use crate::space::resolve;
+use std::sync::Arc;
 
 /// φ_n after `steps` steps from `start`. `unknowns` is the number of steps.
 pub fn solve<'e, T: Scalar>(
-    equation: &'e Equation<'e, T>,
+    product: &Arc<Product<'e, 'e, T>>,
     yardstick: Yardstick,
     start: &Function<'e, f64, T>,
     steps: usize,
 ) -> Result<Approximation<'e, T>, EquationError> {
+    let equation = product.equation();
     let m = equation.components();
     let ends = vec![equation.interval().a(), equation.interval().b()];
     let (resolved, phi) = (resolve(start, &ends, MORE_PANELS), start.clone());
@@ -23,11 +26,11 @@ pub fn solve<'e, T: Scalar>(
         let condition = yardstick.condition();
         return Ok(Approximation { solution: phi, breaks: ends, unknowns: 0, condition });
     }
+    let own = product.clone();
     let residual = move |a: usize, x: &f64| {
-        equation.source(a, *x) + or_nan(transform_resolved(equation, (a, *x), &resolved))
-            - phi.component(a, x)
+        equation.source(a, *x) + or_nan(transform_resolved(&own, (a, *x), &resolved)) - phi.component(a, x)
     };
-    let series = Series::of(equation, yardstick, Function::new(m, residual))?;
+    let series = Series::of(product, yardstick, Function::new(m, residual))?;
     let (sum, phi) = (series.partial_sum(steps - 1), start.clone());
     let value = move |a: usize, x: &f64| phi.component(a, x) + sum.solution.component(a, x);
     let condition = yardstick.condition();

@@ -2,11 +2,11 @@
 //!
 //! Not from the method that is judged, whose matrix may be wrong, but from collocation on panels with integrals to rounding.
 
-use super::Integrals;
-use super::discrete::Factors;
-use super::integrals::images;
-use crate::equation::{Equation, EquationError, Scalar};
-use crate::space::{Basis, Panels, equal_parts};
+use crate::automatic::discrete::Discrete;
+use crate::automatic::panels::Panels;
+use crate::equation::{EquationError, Scalar};
+use crate::product::{COARSE, Product};
+use crate::second_kind::SecondKind;
 
 /// Numbers of an operator that do not depend on how an equation with it is solved.
 #[derive(Clone, Copy, Debug)]
@@ -17,9 +17,9 @@ pub struct Yardstick {
     pub inverse_norm: f64,
 }
 
-/// Equal panels of 16 nodes, doubled until what is sought settles: 2 see what is as wide as a fifth of the interval; 32,
-/// with 512 unknowns, a hundredth.
-pub(super) const PANELS: [usize; 5] = [2, 4, 8, 16, 32];
+/// Equal panels of 16 nodes, doubled until ‖(I − A)⁻¹‖ settles: 2 see what is as wide as a fifth of the interval; 32, with
+/// 512 unknowns, a hundredth.
+const PANELS: [usize; 5] = [2, 4, 8, 16, 32];
 
 /// A change of ‖(I − A)⁻¹‖ by less than this part is as good as none: it multiplies an estimate.
 const SETTLED: f64 = 0.1;
@@ -30,14 +30,15 @@ impl Yardstick {
     /// # Errors
     ///
     /// [`EquationError::KernelNotFinite`].
-    pub fn new<T: Scalar>(equation: &Equation<'_, T>) -> Result<Self, EquationError> {
-        let interval = equation.interval();
+    pub fn new<T: Scalar>(product: &Product<'_, '_, T>) -> Result<Self, EquationError> {
         let (mut norm, mut inverse_norm) = (0.0, 0.0_f64);
-        for panels in PANELS {
-            let basis = Panels::new(equal_parts(interval.a(), interval.b(), panels));
-            let matrix = images(equation, &basis, basis.nodes(), Integrals::Accurate)?;
-            norm = norm_of(&matrix);
-            let before = std::mem::replace(&mut inverse_norm, inverse_norm_of(&matrix));
+        for count in PANELS {
+            let panels = Panels::equal(product.change().range(), count);
+            let matrix = Discrete::assemble(product, &panels, &COARSE)?;
+            let system = SecondKind::new(matrix.n, &matrix.a);
+            let sums = matrix.a.chunks(matrix.n).map(|row| row.iter().map(|entry| entry.modulus()).sum());
+            norm = sums.fold(0.0, f64::max);
+            let before = std::mem::replace(&mut inverse_norm, system.inverse_norm());
             // A change of a norm beyond 1e10 is that of rounding.
             if (inverse_norm - before).abs() <= SETTLED * inverse_norm || inverse_norm.min(before) > 1e10 {
                 break;
@@ -50,13 +51,4 @@ impl Yardstick {
     pub fn condition(&self) -> f64 {
         (1.0 + self.norm) * self.inverse_norm
     }
-}
-
-fn norm_of<T: Scalar>(matrix: &[Vec<T>]) -> f64 {
-    matrix.iter().map(|line| line.iter().map(|entry| entry.modulus()).sum()).fold(0.0, f64::max)
-}
-
-fn inverse_norm_of<T: Scalar>(matrix: &[Vec<T>]) -> f64 {
-    let norm = Factors::new(matrix).inverse_norm();
-    if norm.is_nan() { f64::INFINITY } else { norm }
 }

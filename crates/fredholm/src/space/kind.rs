@@ -18,7 +18,7 @@ pub enum SpaceKind {
     Fourier,
 }
 
-/// The highest degree on an element: that of [`crate::product::row`], and where equidistant nodes are still harmless
+/// The highest degree on an element: that of [`crate::product::Product::row`], and where equidistant nodes are still harmless
 /// (Lebesgue constant 512 at degree 15).
 const HIGHEST_DEGREE: usize = 15;
 

@@ -1,32 +1,30 @@
 //! φ(x) = Σ_j φ(x_j) u_j(x) on panels of degree 15 cut until that is true to rounding: a function that can be integrated.
 
 use super::Basis;
-use super::barycentric::Barycentric;
 use super::piecewise::piece;
 use crate::equation::{Function, Scalar};
+use crate::product::COARSE;
 use rayon::prelude::*;
 
-/// Nodes of a panel: polynomials of degree 15, which is what [`crate::product::row`] integrates to rounding.
+/// Nodes of a panel: polynomials of degree 15, which is what [`crate::product::Product::row`] integrates to rounding.
 pub(crate) const PER_PANEL: usize = 16;
 
-/// Polynomials of degree 15 on each panel, which owns its coefficients, with Chebyshev's nodes.
+/// Polynomials of degree 15 on each panel, which owns its coefficients, with Gauss's nodes.
 #[derive(Clone, Debug)]
 pub(crate) struct Panels {
-    reference: Barycentric,
     nodes: Vec<f64>,
     breaks: Vec<f64>,
 }
 
 impl Panels {
     pub fn new(breaks: Vec<f64>) -> Self {
-        let reference = Barycentric::chebyshev(PER_PANEL);
-        let nodes = breaks.windows(2).flat_map(|edge| mapped(&reference, edge[0], edge[1])).collect();
-        Self { reference, nodes, breaks }
+        let nodes = breaks.windows(2).flat_map(|edge| mapped(edge[0], edge[1])).collect();
+        Self { nodes, breaks }
     }
 }
 
-fn mapped(reference: &Barycentric, a: f64, b: f64) -> Vec<f64> {
-    reference.nodes.iter().map(|t| 0.5 * (a + b) + 0.5 * (b - a) * t).collect()
+fn mapped(a: f64, b: f64) -> Vec<f64> {
+    COARSE.nodes.iter().map(|t| 0.5 * (a + b) + 0.5 * (b - a) * t).collect()
 }
 
 impl Basis for Panels {
@@ -41,7 +39,8 @@ impl Basis for Panels {
     fn values(&self, x: f64, values: &mut Vec<f64>) -> usize {
         let panel = piece(&self.breaks, x);
         let (a, b) = (self.breaks[panel], self.breaks[panel + 1]);
-        self.reference.values(((x - a) - (b - x)) / (b - a), values);
+        values.resize(PER_PANEL, 0.0);
+        COARSE.basis_at(((x - a) - (b - x)) / (b - a), values);
         panel * PER_PANEL
     }
 }
@@ -84,13 +83,12 @@ pub(crate) fn resolve<T: Scalar>(
     breaks: &[f64],
     more: usize,
 ) -> Resolved<T> {
-    let reference = Barycentric::chebyshev(PER_PANEL);
     let length = breaks[breaks.len() - 1] - breaks[0];
     let most = breaks.len() - 1 + more;
     let mut pending: Vec<(f64, f64)> = breaks.windows(2).map(|edge| (edge[0], edge[1])).collect();
     let (mut done, mut scale) = (Vec::new(), 0.0_f64);
     while !pending.is_empty() {
-        let level: Vec<_> = pending.par_iter().map(|edges| sample(function, &reference, *edges)).collect();
+        let level: Vec<_> = pending.par_iter().map(|edges| sample(function, *edges)).collect();
         scale = level.iter().fold(scale, |scale, panel| scale.max(panel.scale));
         // NaN is neither resolved nor worth cutting: it stays, and the residual tells.
         let fine = |panel: &Panel<T>| {
@@ -114,24 +112,18 @@ fn halves((a, b): (f64, f64)) -> [(f64, f64); 2] {
     [(a, middle), (middle, b)]
 }
 
-fn sample<T: Scalar>(
-    function: &Function<'_, f64, T>,
-    reference: &Barycentric,
-    edges: (f64, f64),
-) -> Panel<T> {
+fn sample<T: Scalar>(function: &Function<'_, f64, T>, edges: (f64, f64)) -> Panel<T> {
     let (a, b) = edges;
-    let nodes = mapped(reference, a, b);
+    let nodes = mapped(a, b);
     let components = 0..function.components();
     let values: Vec<Vec<T>> =
         components.map(|c| nodes.iter().map(|x| function.component(c, x)).collect()).collect();
     let scale = values.iter().flatten().map(|value| value.modulus()).fold(0.0, f64::max);
-    let (mut defect, mut u) = (0.0_f64, Vec::with_capacity(PER_PANEL));
+    let mut defect = 0.0_f64;
     for t in PROBES {
         let x = 0.5 * (a + b) + 0.5 * (b - a) * t;
-        reference.values(t, &mut u);
         for (c, values) in values.iter().enumerate() {
-            let between: T = u.iter().zip(values).map(|(u, value)| *value * *u).sum();
-            defect = defect.max((between - function.component(c, &x)).modulus());
+            defect = defect.max((COARSE.interpolate(values, t) - function.component(c, &x)).modulus());
         }
     }
     Panel { edges, values, defect, scale }
