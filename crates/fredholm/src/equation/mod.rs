@@ -144,7 +144,8 @@ pub enum EquationError {
     },
     /// The kernel is infinite or NaN where it was sampled.
     #[error(
-        "the kernel is {value} at x = {x}, y = {y}, where the method samples it: take collocation or the automatic method"
+        "the kernel is {value} at x = {x}, y = {y}: on the diagonal x = y, take collocation or the automatic method; elsewhere \
+         none can integrate it"
     )]
     KernelNotFinite {
         /// Where.

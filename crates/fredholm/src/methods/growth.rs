@@ -58,7 +58,7 @@ pub(super) fn grow<'e, T: Scalar>(
 
 /// What the error estimate has to meet.
 pub(super) fn goal(setup: &Setup, judgement: Judgement) -> f64 {
-    setup.tolerance * judgement.size.max(1.0)
+    setup.tolerance * judgement.size
 }
 
 pub(super) fn answer<'e, T: Scalar>(
@@ -132,17 +132,21 @@ fn largest(method: Method) -> usize {
     }
 }
 
-/// A matrix of 16000 × 16000 takes 2 GB.
-const LARGEST: usize = 16_000;
+/// How many unknowns may be asked for: 2 GB for a matrix of 16000 × 16000, or for one of 16 rows an unknown.
+fn most(method: Method) -> usize {
+    if method == Method::LeastSquares { 3000 } else { 16_000 }
+}
 
 fn check_size(setup: &Setup, n: usize, components: usize) -> Result<(), EquationError> {
     // n alone first: a product of absurd numbers would overflow.
     if n == 0 {
         return Err(EquationError::Method(format!("{} needs n ≥ 1", setup.method)));
     }
-    if n > LARGEST || unknowns(setup, n) * components > LARGEST {
+    let most = most(setup.method);
+    if n > most || unknowns(setup, n) * components > most {
         return Err(EquationError::Method(format!(
-            "n = {n} makes a matrix of more than {LARGEST} rows: take a smaller n, or a space or rule of higher order"
+            "n = {n} makes more than the {most} unknowns that {} may have: take a smaller n, or a space or rule of higher order",
+            setup.method
         )));
     }
     Ok(())

@@ -90,10 +90,18 @@ impl<'e, T: Scalar> Series<'e, T> {
         self.spectral_radius < 1.0 - 1e-8
     }
 
+    /// The terms f, A f, A² f, … at the nodes of the panels, component by component.
+    pub(super) fn terms(&self) -> impl Iterator<Item = Vec<T>> + '_ {
+        let m = self.product.equation().components();
+        let points = (0..m).flat_map(|a| self.panels.nodes().iter().map(move |x| (a, x)));
+        let f = points.map(|(a, x)| self.source.component(a, x)).collect();
+        let images = std::iter::successors(Some(self.first.clone()), |term| Some(self.apply(term)));
+        std::iter::once(f).chain(images)
+    }
+
     /// The sizes ‖A^k f‖∞ for k = 0, 1, …
     pub fn sizes(&self) -> impl Iterator<Item = f64> + '_ {
-        let terms = std::iter::successors(Some(self.first.clone()), |term| Some(self.apply(term)));
-        std::iter::once(self.resolved_source.scale).chain(terms.map(|term| largest(&term)))
+        self.terms().map(|term| largest(&term))
     }
 
     /// A on values at the nodes.
@@ -144,7 +152,7 @@ impl<'e, T: Scalar> Series<'e, T> {
     }
 }
 
-fn largest<T: Scalar>(values: &[T]) -> f64 {
+pub(super) fn largest<T: Scalar>(values: &[T]) -> f64 {
     values.iter().map(|value| value.modulus()).fold(0.0, f64::max)
 }
 

@@ -1,7 +1,7 @@
 //! How many terms of Σ A^k f, and whether they converge at all: the front of [`super::neumann`] and [`super::successive`].
 
 use super::growth::answer;
-use super::neumann::Series;
+use super::neumann::{Series, largest};
 use super::residual::judge;
 use super::{Method, Setup, Yardstick};
 use crate::equation::{Answer, EquationError, Scalar, Status};
@@ -48,17 +48,23 @@ pub(super) fn solve<'e, T: Scalar>(
     Ok(answer)
 }
 
-/// The n for which ‖A^{n+1} f‖, the residual of φ_n, times ‖(I − A)⁻¹‖ is a quarter of what is tolerated, of ‖f‖ if not of ‖φ‖.
+/// The n for which ‖A^{n+1} f‖, the residual of φ_n, times ‖(I − A)⁻¹‖ is a quarter of what is tolerated; or from where on
+/// the terms are rounding.
 fn enough<T: Scalar>(series: &Series<'_, T>, tolerance: f64) -> usize {
-    let mut sizes = series.sizes();
-    let mut before = sizes.next().unwrap_or(0.0);
-    let goal = 0.25 * tolerance.max(f64::EPSILON) * before.max(1.0) / series.yardstick().inverse_norm;
-    let done = |size: f64| {
-        let rounding = ROUNDING * series.norm() * before;
-        before = size;
-        size <= goal.max(rounding)
-    };
-    sizes.take(MOST).position(done).unwrap_or(MOST)
+    let part = 0.25 * tolerance.max(f64::EPSILON) / series.yardstick().inverse_norm;
+    let mut terms = series.terms();
+    let mut term = terms.next().unwrap_or_default();
+    let mut sum = term.clone();
+    for n in 0..MOST {
+        let next = terms.next().unwrap_or_default();
+        let rounding = ROUNDING * series.norm() * largest(&term);
+        if largest(&next) <= rounding.max(part * largest(&sum)) {
+            return n;
+        }
+        sum.iter_mut().zip(&next).for_each(|(sum, next)| *sum += *next);
+        term = next;
+    }
+    MOST
 }
 
 /// The n of the smallest ‖A^{n+1} f‖.

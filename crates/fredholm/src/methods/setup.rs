@@ -40,7 +40,7 @@ pub struct Setup {
     /// n: what [`SpaceKind::basis`] or [`RuleKind::quadrature`] makes of it; terms or steps for the Neumann series and
     /// successive approximations. `None`: it grows until the error estimate meets the tolerance.
     pub n: Option<usize>,
-    /// The error estimate to be reached, times max |φ| where that is above 1.
+    /// The error estimate to be reached, as a part of max |φ|.
     pub tolerance: f64,
 }
 
