@@ -56,7 +56,7 @@ pub fn spectrum<'e, 'a: 'e, T: Scalar>(
         _ => plain,
     };
     // Twice as many polynomials as functions, the last of which have the most waves.
-    let enough = 2 * count.div_ceil(COARSE.len()).max(1);
+    let enough = 2 * count.max(1).div_ceil(COARSE.len());
     let mut panels = Panels::equal(product.change().range(), enough);
     let mut best = Pairs::new(&product, panels.clone(), count)?;
     loop {

@@ -70,7 +70,10 @@ fn is_honest(outcome: &Outcome) {
     let (error, estimate) = (outcome.error, outcome.estimate);
     assert!(error <= estimate, "error {error:.1e} is above its estimate {estimate:.1e}");
     // Where nothing but rounding is left, the error may be nought.
-    assert!(estimate <= 100.0 * error.max(1e-15), "error {error:.1e} is far below its estimate {estimate:.1e}");
+    assert!(
+        estimate <= 100.0 * error.max(1e-15),
+        "error {error:.1e} is far below its estimate {estimate:.1e}"
+    );
 }
 
 fn to(tolerance: f64) -> Options {
@@ -155,8 +158,7 @@ fn a_rectangle_2500_times_as_long_as_high() {
     let along = 25.0 + 50_f64.sin() / 2.0;
     let exact = |[x, _]: Point| (0.5 * x).cos();
     let source = |p: Point| exact(p) - (p[0] * 0.1).cos() * along * (0.02 * (1.0 + p[1]) + 0.0002);
-    let outcome =
-        outcome(Domain::rectangle(0.0, 50.0, 0.0, 0.02).unwrap(), kernel, source, exact, to(1e-13));
+    let outcome = outcome(Domain::rectangle(0.0, 50.0, 0.0, 0.02).unwrap(), kernel, source, exact, to(1e-13));
     is_solved(&outcome);
     assert!(outcome.unknowns < 700, "{} unknowns", outcome.unknowns);
 }
@@ -198,7 +200,8 @@ fn a_peak_too_narrow_for_the_unknowns_is_said_to_be() {
 #[test]
 fn a_small_bump_of_the_source_is_not_overlooked() {
     let w = 0.033;
-    let bump = move |[x, y]: Point| (-((x - 0.43_f64).powi(2) + (y - 0.59_f64).powi(2)) / (2.0 * w * w)).exp();
+    let bump =
+        move |[x, y]: Point| (-((x - 0.43_f64).powi(2) + (y - 0.59_f64).powi(2)) / (2.0 * w * w)).exp();
     let mean = bell(0.43, w) * bell(0.59, w);
     let outcome = outcome(
         Domain::rectangle(0.0, 1.0, 0.0, 1.0).unwrap(),
@@ -215,7 +218,8 @@ fn a_small_bump_of_the_source_is_not_overlooked() {
 fn complex_kernels() {
     // φ = e^{i(x + 2y)}: K e^{−i(s + 2t)} makes the integral the area.
     let exact = |[x, y]: Point| Complex64::from_polar(1.0, x + 2.0 * y);
-    let kernel = |[x, y]: Point, [s, t]: Point| Complex64::new(0.3 * x, y) * Complex64::from_polar(1.0, -s - 2.0 * t);
+    let kernel =
+        |[x, y]: Point, [s, t]: Point| Complex64::new(0.3 * x, y) * Complex64::from_polar(1.0, -s - 2.0 * t);
     let source = |[x, y]: Point| exact([x, y]) - Complex64::new(0.3 * x, y);
     is_solved(&outcome(Domain::rectangle(0.0, 2.0, 1.0, 1.5).unwrap(), kernel, source, exact, to(1e-13)));
 }

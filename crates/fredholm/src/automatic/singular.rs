@@ -151,8 +151,13 @@ impl<T: Scalar> Singular<T> {
         let exact = defects(source);
         let smoothed = defects(&refined(&coarsened(source)));
         let allowed = tolerance.max(1e-12) * inner(source, source).modulus().sqrt();
-        let doubt =
+        let change =
             exact.iter().zip(smoothed).map(|(one, other)| (*one - other).modulus()).fold(0.0, f64::max);
+        // What the panels do not show of f could be orthogonal to ψ or not.
+        let parts = source.chunks(FINE.len()).zip(weights.chunks(FINE.len()));
+        let unseen: f64 = parts.map(|(f, w)| FINE.unresolved(f) * w.iter().sum::<f64>()).sum();
+        let size = self.adjoint.iter().map(|psi| largest(psi)).fold(0.0, f64::max);
+        let doubt = change + unseen * size;
         let defect = largest(&exact);
         self.defects = exact;
         if defect <= allowed {

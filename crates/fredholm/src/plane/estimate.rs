@@ -49,7 +49,8 @@ pub(super) fn error<T: Scalar>(found: &Nystrom<'_, '_, T>, mesh: &Mesh) -> Resul
     };
     let correction = found.solve(&residuals(&found.rule.nodes, &found.values)?);
 
-    let (probes, values) = spread(&finer.nodes, PROBES).zip(spread(&between, PROBES)).unzip::<_, _, Vec<_>, Vec<_>>();
+    let (probes, values) =
+        spread(&finer.nodes, PROBES).zip(spread(&between, PROBES)).unzip::<_, _, Vec<_>, Vec<_>>();
     let residual = residuals(&probes, &values)?;
     let rest = integrals(found.equation, &probes, &found.rule.nodes, &weighted(&found.rule, &correction))?;
     let at_probes: Vec<T> = residual.iter().zip(rest).map(|(r, rest)| *r + rest).collect();

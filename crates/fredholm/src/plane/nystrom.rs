@@ -31,7 +31,8 @@ impl<'e, 'a, T: Scalar> Nystrom<'e, 'a, T> {
         let source = sources(equation, &rule.nodes)?;
         let mut rows = rows(equation, &rule.nodes)?;
         let n = rule.nodes.len();
-        rows.par_chunks_mut(n).for_each(|row| row.iter_mut().zip(&rule.weights).for_each(|(k, w)| *k = *k * *w));
+        rows.par_chunks_mut(n)
+            .for_each(|row| row.iter_mut().zip(&rule.weights).for_each(|(k, w)| *k = *k * *w));
         rows.iter_mut().for_each(|a| *a = -*a);
         (0..n).for_each(|i| rows[i * n + i] += T::ONE);
         let norm = rows.chunks(n).map(|row| row.iter().map(|b| b.modulus()).sum()).fold(0.0, f64::max);
@@ -101,9 +102,8 @@ pub(super) fn integrals<T: Scalar>(
     nodes: &[[f64; 2]],
     weighted: &[T],
 ) -> Result<Vec<T>, EquationError> {
-    let at = |row: &mut Vec<T>, p: &[f64; 2]| {
-        equation.finite_row(*p, nodes, row).map(|()| dot(row, weighted))
-    };
+    let at =
+        |row: &mut Vec<T>, p: &[f64; 2]| equation.finite_row(*p, nodes, row).map(|()| dot(row, weighted));
     let found: Vec<_> = points.par_iter().map_init(|| vec![T::ZERO; nodes.len()], at).collect();
     found.into_iter().collect()
 }

@@ -50,7 +50,9 @@ pub fn solve<'e, 'a, T: Scalar>(
     let mut mesh = Mesh::new(domain, options.n.unwrap_or(FIRST));
     if mesh.unknowns() > options.unknowns {
         let (needed, most) = (mesh.unknowns(), options.unknowns);
-        return Err(EquationError::Method(format!("{needed} unknowns are asked for, and {most} are allowed")));
+        return Err(EquationError::Method(format!(
+            "{needed} unknowns are asked for, and {most} are allowed"
+        )));
     }
     let mut best = attempt(equation, &mesh)?;
     let mut latest = None;
@@ -101,7 +103,8 @@ fn refined<T: Scalar>(
         return Ok(None);
     }
     let defects = defects(&found.nystrom, mesh)?;
-    let target = found.error.floor.max(options.tolerance * largest(&found.nystrom.values)) / found.nystrom.inverse_norm;
+    let target = found.error.floor.max(options.tolerance * largest(&found.nystrom.values))
+        / found.nystrom.inverse_norm;
     let meshes = GROWTHS.map(|growth| mesh.refined(&defects, target, growth));
     Ok(meshes.into_iter().find(|next| next.unknowns() <= options.unknowns))
 }

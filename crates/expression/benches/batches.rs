@@ -1,0 +1,64 @@
+//! A formula in batches beside the closure that a programmer would write.
+
+use divan::{Bencher, black_box, counter::ItemsCount};
+use expression::{Column, Formula};
+
+fn main() {
+    divan::main();
+}
+
+/// Rows of a kernel: x is the same along a row, y runs over the nodes.
+const ROW: [usize; 3] = [16, 64, 256];
+
+fn nodes(n: usize) -> Vec<f64> {
+    (0..n).map(|k| (k as f64 + 0.5) / n as f64).collect()
+}
+
+fn closure(bencher: Bencher<'_, '_>, n: usize, kernel: impl Fn(f64, f64) -> f64 + Sync) {
+    let y = nodes(n);
+    let mut out = vec![0.0; n];
+    bencher.counter(ItemsCount::new(n)).bench_local(|| {
+        let x = black_box(0.3);
+        for (out, y) in out.iter_mut().zip(black_box(&y)) {
+            *out = kernel(x, *y);
+        }
+        black_box(&mut out);
+    });
+}
+
+fn formula(bencher: Bencher<'_, '_>, n: usize, text: &str) {
+    let kernel = Formula::parse(text, &["x", "y"]).expect("a formula");
+    let y = nodes(n);
+    let mut out = vec![0.0; n];
+    let mut row = || {
+        kernel.fill(&[Column::Same(black_box(0.3)), Column::Each(black_box(&y))], &mut out);
+        black_box(&mut out);
+    };
+    row(); // the first call makes the registers, and would set divan's idea of how long one takes
+    bencher.counter(ItemsCount::new(n)).bench_local(row);
+}
+
+/// A kernel in a module of its own: `native` is the closure, `batch` the formula.
+macro_rules! kernels {
+    ($($name:ident: $text:literal, $closure:expr;)*) => {$(
+        mod $name {
+            #[divan::bench(args = super::ROW)]
+            fn native(bencher: divan::Bencher<'_, '_>, n: usize) {
+                super::closure(bencher, n, $closure);
+            }
+
+            #[divan::bench(args = super::ROW)]
+            fn batch(bencher: divan::Bencher<'_, '_>, n: usize) {
+                super::formula(bencher, n, $text);
+            }
+        }
+    )*};
+}
+
+kernels! {
+    smooth: "(x+1)*exp(-x*y)/2", |x, y| (x + 1.0) * (-x * y).exp() / 2.0;
+    rational: "1/(1+2*x+y)", |x, y| 1.0 / (1.0 + 2.0 * x + y);
+    green: "min(x,y)*(1-max(x,y))", |x: f64, y: f64| x.min(y) * (1.0 - x.max(y));
+    peaked: "(0.01/5)/(0.0001+(x-y)^2)", |x, y| (0.01 / 5.0) / (0.0001 + (x - y) * (x - y));
+    logarithmic: "ln(abs(x-y))", |x: f64, y: f64| (x - y).abs().ln();
+}
