@@ -59,19 +59,18 @@ pub(crate) fn examine<T: Scalar>(
         distance_to_spectrum: f64::NAN,
         contributions: right.residuals,
     };
-    if nullity == 0 || !singular.resolved() {
-        return Ok(Some(singular));
+    if nullity > 0 && singular.resolved() {
+        let equation = product.equation().adjoint();
+        let transposed = product.adjoint(&equation);
+        let coarse = Discrete::assemble(&transposed, panels, &COARSE)?;
+        let fine = Discrete::assemble(&transposed, panels, &FINE)?;
+        let factors = SecondKind::new(coarse.n, &coarse.a);
+        let Some(left) = nearly_annulled(&transposed, panels, &coarse, &fine, &factors) else {
+            return Ok(None);
+        };
+        singular.adjoint = left.functions.into_iter().take(nullity).collect();
+        singular.contributions.iter_mut().zip(left.residuals).for_each(|(one, other)| *one = one.max(other));
     }
-    let equation = product.equation().adjoint();
-    let transposed = product.adjoint(&equation);
-    let coarse_adjoint = Discrete::assemble(&transposed, panels, &COARSE)?;
-    let fine_adjoint = Discrete::assemble(&transposed, panels, &FINE)?;
-    let factors = SecondKind::new(coarse_adjoint.n, &coarse_adjoint.a);
-    let Some(left) = nearly_annulled(&transposed, panels, &coarse_adjoint, &fine_adjoint, &factors) else {
-        return Ok(None);
-    };
-    singular.adjoint = left.functions.into_iter().take(nullity).collect();
-    singular.contributions.iter_mut().zip(left.residuals).for_each(|(one, other)| *one = one.max(other));
     if singular.resolved() {
         let Some(eigenvalues) = eigen(coarse.n, &coarse.a) else { return Ok(None) };
         let distances = eigenvalues.iter().map(|(value, _)| (value - 1.0).norm());
