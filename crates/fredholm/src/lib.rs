@@ -97,6 +97,7 @@ pub mod plane;
 pub mod product;
 pub mod quadrature;
 pub mod relax;
+mod second_kind;
 pub mod space;
 pub mod system;
 pub mod value;

@@ -26,7 +26,11 @@ fn half_rule(length: f64) -> Vec<(f64, f64)> {
             (length / (1.0 + e), length * e / (1.0 + e).powi(2) * 2.0 * FRAC_PI_2 * t.cosh() * step)
         }
     };
-    nodes.filter(|t| length.is_infinite() || *t >= 0.0).map(pair).filter(|(y, w)| *y > 0.0 && w.is_finite()).collect()
+    nodes
+        .filter(|t| length.is_infinite() || *t >= 0.0)
+        .map(pair)
+        .filter(|(y, w)| *y > 0.0 && w.is_finite())
+        .collect()
 }
 
 /// The nodes y, the offsets y − x and the weights of ∫_a^b dy, divided at x.
@@ -97,7 +101,13 @@ fn every_solution_solves_its_equation() {
         is_solution(problem.id, problem.interval, &*problem.kernel, &*problem.source, &*problem.exact);
     }
     for problem in complex() {
-        is_solution::<Complex64>(problem.id, problem.interval, &*problem.kernel, &*problem.source, &*problem.exact);
+        is_solution::<Complex64>(
+            problem.id,
+            problem.interval,
+            &*problem.kernel,
+            &*problem.source,
+            &*problem.exact,
+        );
     }
 }
 
@@ -115,7 +125,11 @@ fn every_name_is_there_once() {
 fn sources_and_solutions_are_finite_at_the_ends() {
     for problem in all() {
         for x in problem.interval.into_iter().filter(|x| x.is_finite()) {
-            assert!((problem.source)(x).is_finite() && (problem.exact)(x).is_finite(), "{} at {x}", problem.id);
+            assert!(
+                (problem.source)(x).is_finite() && (problem.exact)(x).is_finite(),
+                "{} at {x}",
+                problem.id
+            );
         }
     }
 }
@@ -127,7 +141,8 @@ fn every_system_is_solved() {
         assert_eq!(system.equation().components(), m);
         for a in 0..m {
             for x in points([0.0, 1.0]) {
-                let terms = (0..m).map(|b| integral(&*system.kernels[a * m + b], &*system.exact[b], x, [0.0, 1.0]));
+                let terms =
+                    (0..m).map(|b| integral(&*system.kernels[a * m + b], &*system.exact[b], x, [0.0, 1.0]));
                 let defect = (system.exact[a])(x) - terms.sum::<f64>() - (system.sources[a])(x);
                 assert!(defect.abs() < ROUNDING, "{} row {a} at {x}: {defect:.1e}", system.id);
             }
@@ -147,7 +162,11 @@ fn null_functions_are_and_verdicts_are_right() {
         let middle = 0.37 * interval[0] + 0.63 * interval[1];
         let product = |f: &OfX<f64>, psi: &OfX<f64>| integral(&|_: f64, y: f64| f(y), psi, middle, interval);
         assert!(problem.adjoint.iter().all(|psi| product(f, psi).abs() < ROUNDING), "{}", problem.id);
-        assert!(problem.adjoint.iter().any(|psi| product(&problem.unsolvable, psi).abs() > 0.1), "{}", problem.id);
+        assert!(
+            problem.adjoint.iter().any(|psi| product(&problem.unsolvable, psi).abs() > 0.1),
+            "{}",
+            problem.id
+        );
         // ψ(x) = ∫ K(y, x) ψ(y) dy: the kernel's columns, one y after another.
         let column = |x: f64, y: f64| entry(kernel, y, x);
         for psi in &problem.adjoint {

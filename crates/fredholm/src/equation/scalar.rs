@@ -1,6 +1,8 @@
 //! What φ, f and K may be on a line: real or complex.
 
+use faer::linalg::solvers::Eigen;
 use faer::traits::ComplexField;
+use faer::{Mat, MatRef};
 use num_complex::Complex64;
 use std::fmt::Debug;
 use std::iter::Sum;
@@ -43,6 +45,14 @@ pub trait Scalar:
 
     /// Whether neither part is infinite or NaN.
     fn finite(self) -> bool;
+
+    /// The eigenvalues of a square matrix, and its eigenvectors as columns; `None` where the iteration fails.
+    fn eigen(matrix: MatRef<'_, Self>) -> Option<(Vec<Complex64>, Mat<Complex64>)>;
+}
+
+fn parts_of(eigen: &Eigen<f64>) -> (Vec<Complex64>, Mat<Complex64>) {
+    let vectors = eigen.U().to_owned();
+    ((0..vectors.ncols()).map(|k| eigen.S()[k]).collect(), vectors)
 }
 
 impl Scalar for f64 {
@@ -61,6 +71,9 @@ impl Scalar for f64 {
     fn finite(self) -> bool {
         self.is_finite()
     }
+    fn eigen(matrix: MatRef<'_, Self>) -> Option<(Vec<Complex64>, Mat<Complex64>)> {
+        Some(parts_of(&Eigen::new_from_real(matrix).ok()?))
+    }
 }
 
 impl Scalar for Complex64 {
@@ -78,5 +91,8 @@ impl Scalar for Complex64 {
     }
     fn finite(self) -> bool {
         self.re.is_finite() && self.im.is_finite()
+    }
+    fn eigen(matrix: MatRef<'_, Self>) -> Option<(Vec<Complex64>, Mat<Complex64>)> {
+        Some(parts_of(&Eigen::new(matrix).ok()?))
     }
 }

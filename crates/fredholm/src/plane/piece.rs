@@ -90,7 +90,8 @@ fn product(
     second: &Quadrature<f64>,
     map: impl Fn(f64, f64) -> ([f64; 2], f64),
 ) -> Quadrature<[f64; 2]> {
-    let pairs = |rule: &Quadrature<f64>| rule.nodes.iter().copied().zip(rule.weights.clone()).collect::<Vec<_>>();
+    let pairs =
+        |rule: &Quadrature<f64>| rule.nodes.iter().copied().zip(rule.weights.clone()).collect::<Vec<_>>();
     let (first, second) = (pairs(first), pairs(second));
     let of_pair = |((a, v), (b, w)): ((f64, f64), (f64, f64))| {
         let (node, jacobian) = map(a, b);

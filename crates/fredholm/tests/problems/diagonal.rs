@@ -15,9 +15,8 @@ fn reference() -> Vec<Problem> {
     // −min(x, y)(b − max(x, y)) on [0, b].
     let damped = |id, b: f64| {
         let exact = |x: f64| (-x).exp() * x.sin();
-        let source = move |x: f64| {
-            exact(x) - (x * (1.0 - b.cos() * (-b).exp()) - b + b * x.cos() * (-x).exp()) / 2.0
-        };
+        let source =
+            move |x: f64| exact(x) - (x * (1.0 - b.cos() * (-b).exp()) - b + b * x.cos() * (-x).exp()) / 2.0;
         Problem::new(id, Kink, [0.0, b], move |x: f64, y: f64| -x.min(y) * (b - x.max(y)), source, exact)
     };
     vec![

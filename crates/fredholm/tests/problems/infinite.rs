@@ -26,9 +26,14 @@ fn half_lines() -> Vec<Problem> {
             |x| 1.0 / (1.0 + x * x),
         ),
         // ∫ e^{−y} f dy, to the digits that doubles have.
-        Problem::new("I02", Smooth, FROM_0, |_, y: f64| (1.0 - y).exp(), peaks, move |x| {
-            peaks(x) + E * I02_MEAN / (1.0 - E)
-        }),
+        Problem::new(
+            "I02",
+            Smooth,
+            FROM_0,
+            |_, y: f64| (1.0 - y).exp(),
+            peaks,
+            move |x| peaks(x) + E * I02_MEAN / (1.0 - E),
+        ),
         Problem::new(
             "I20",
             Smooth,

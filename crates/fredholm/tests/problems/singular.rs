@@ -149,7 +149,8 @@ fn inverse_root_of_root(x: f64) -> f64 {
 
 /// s (x − y)^{−1/2} for y < x, and 0 for y > x.
 fn abel() -> Vec<Problem> {
-    let kernel = |s: f64| ByOffset(move |_, _, offset: f64| if offset < 0.0 { s / (-offset).sqrt() } else { 0.0 });
+    let kernel =
+        |s: f64| ByOffset(move |_, _, offset: f64| if offset < 0.0 { s / (-offset).sqrt() } else { 0.0 });
     let class = Algebraic { exponent: -0.5 };
     vec![
         Problem::new("B20", class, UNIT, kernel(0.5), |x| 1.0 - x.sqrt(), |_| 1.0),

@@ -8,7 +8,10 @@ use std::f64::consts::{E, PI, SQRT_2};
 const UNIT: [f64; 2] = [0.0, 1.0];
 
 pub fn all() -> Vec<Problem> {
-    [reference(), lorentzians(), gentle(), oscillating(), steep(), rough_solutions()].into_iter().flatten().collect()
+    [reference(), lorentzians(), gentle(), oscillating(), steep(), rough_solutions()]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 /// Those of the literature.
@@ -94,7 +97,14 @@ fn gentle() -> Vec<Problem> {
     let [ln2x, e] = [|x: f64| x_ln(2.0 + x), |x: f64| x_ln(1.0 + x)];
     vec![
         // Of norm 5.
-        Problem::new("S20", Smooth, UNIT, |x: f64, y: f64| 5.0 * (x * y).cos(), |x| 1.0 - 5.0 * sinc(x), |_| 1.0),
+        Problem::new(
+            "S20",
+            Smooth,
+            UNIT,
+            |x: f64, y: f64| 5.0 * (x * y).cos(),
+            |x| 1.0 - 5.0 * sinc(x),
+            |_| 1.0,
+        ),
         Problem::new(
             "S21",
             Smooth,

@@ -54,7 +54,8 @@ pub fn log_integral(c: &[f64], x: f64, [a, b]: [f64; 2]) -> f64 {
 
 /// ∫_a^b |x − y|^α p(y) dy for the polynomial p(y) = Σ c_k y^k.
 pub fn power_integral(alpha: f64, c: &[f64], x: f64, [a, b]: [f64; 2]) -> f64 {
-    let primitive = |k: i32, u: f64| u.powi(k) * u.signum() * u.abs().powf(1.0 + alpha) / (f64::from(k + 1) + alpha);
+    let primitive =
+        |k: i32, u: f64| u.powi(k) * u.signum() * u.abs().powf(1.0 + alpha) / (f64::from(k + 1) + alpha);
     by_moments(c, x, |k| primitive(k, b - x) - primitive(k, a - x))
 }
 

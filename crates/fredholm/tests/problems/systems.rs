@@ -37,10 +37,7 @@ fn y01() -> System {
     System {
         id: "Y01",
         kernels: vec![sum(), sum(), product(), product()],
-        sources: vec![
-            Box::new(|x| x / 18.0 + 17.0 / 36.0),
-            Box::new(|x| x * x - 19.0 / 12.0 * x + 1.0),
-        ],
+        sources: vec![Box::new(|x| x / 18.0 + 17.0 / 36.0), Box::new(|x| x * x - 19.0 / 12.0 * x + 1.0)],
         exact: vec![Box::new(|x| x + 1.0), Box::new(|x| x * x + 1.0)],
     }
 }
@@ -55,10 +52,7 @@ fn y20() -> System {
             Box::new(|x: f64, y: f64| (x - y).exp() / 2.0),
             Box::new(|_: f64, _: f64| -0.5),
         ],
-        sources: vec![
-            Box::new(|x| x / 3.0 - 0.25),
-            Box::new(|x| 1.5 - x.exp() * (0.5 - 1.0 / E)),
-        ],
+        sources: vec![Box::new(|x| x / 3.0 - 0.25), Box::new(|x| 1.5 - x.exp() * (0.5 - 1.0 / E))],
         exact: vec![Box::new(|x| x), Box::new(|_| 1.0)],
     }
 }
@@ -141,7 +135,8 @@ pub fn complex() -> Vec<Problem<Complex64>> {
             UNIT,
             ByOffset(|_, _, offset: f64| Complex64::new(0.3, 0.4) * offset.abs().ln()),
             |x| {
-                let integral = Complex64::new(log_integral(&[0.0, 1.0], x, UNIT), log_integral(&[1.0], x, UNIT));
+                let integral =
+                    Complex64::new(log_integral(&[0.0, 1.0], x, UNIT), log_integral(&[1.0], x, UNIT));
                 Complex64::new(x, 1.0) - Complex64::new(0.3, 0.4) * integral
             },
             |x| Complex64::new(x, 1.0),
