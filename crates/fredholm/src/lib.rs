@@ -86,6 +86,7 @@
 //! Section and equation numbers are those of G. Peyré, *Résolution numérique d'équations intégrales, exemple de la
 //! radiativité*, 2001. The crate `radiosity` is this theory applied to the light in a building.
 
+pub mod automatic;
 pub mod direct;
 pub mod discretize;
 pub mod equation;
@@ -99,5 +100,6 @@ pub mod quadrature;
 pub mod relax;
 mod second_kind;
 pub mod space;
+pub mod spectrum;
 pub mod system;
 pub mod value;

@@ -17,11 +17,17 @@ pub use scalar::Scalar;
 pub trait LineKernel<T>: Sync + Send {
     /// `row[j]` = K(x, y_j), where `offset[j]` is y_j − x, exact also where the subtraction would cancel.
     fn row(&self, x: f64, y: &[f64], offset: &[f64], row: &mut [T]);
+
+    /// Whether `offset` is made use of. Otherwise the error of a singular kernel's integral has the rounding of y in it.
+    fn takes_offset(&self) -> bool {
+        false
+    }
 }
 
 impl<T, K: Fn(f64, f64) -> T + Sync + Send> LineKernel<T> for K {
-    fn row(&self, x: f64, y: &[f64], _: &[f64], row: &mut [T]) {
-        row.iter_mut().zip(y).for_each(|(entry, y)| *entry = self(x, *y));
+    fn row(&self, x: f64, y: &[f64], offset: &[f64], row: &mut [T]) {
+        let points = y.iter().zip(offset);
+        row.iter_mut().zip(points).for_each(|(entry, (y, offset))| *entry = self(x, beside(x, *y, *offset)));
     }
 }
 
@@ -33,6 +39,36 @@ impl<T, K: Fn(f64, f64, f64) -> T + Sync + Send> LineKernel<T> for ByOffset<K> {
     fn row(&self, x: f64, y: &[f64], offset: &[f64], row: &mut [T]) {
         let points = y.iter().zip(offset);
         row.iter_mut().zip(points).for_each(|(entry, (y, offset))| *entry = self.0(x, *y, *offset));
+    }
+
+    fn takes_offset(&self) -> bool {
+        true
+    }
+}
+
+/// y, or where it was rounded to x, the next double on its side: there no kernel can be singular.
+fn beside(x: f64, y: f64, offset: f64) -> f64 {
+    match y == x {
+        true if offset > 0.0 => x.next_up(),
+        true if offset < 0.0 => x.next_down(),
+        _ => y,
+    }
+}
+
+/// K(y, x)*.
+struct Adjoint<'k, T>(&'k dyn LineKernel<T>);
+
+impl<T: Scalar> LineKernel<T> for Adjoint<'_, T> {
+    fn row(&self, x: f64, y: &[f64], offset: &[f64], row: &mut [T]) {
+        for ((entry, y), offset) in row.iter_mut().zip(y).zip(offset) {
+            let mut value = [T::ZERO];
+            self.0.row(*y, &[x], &[-offset], &mut value);
+            *entry = value[0].conjugate();
+        }
+    }
+
+    fn takes_offset(&self) -> bool {
+        self.0.takes_offset()
     }
 }
 
@@ -186,6 +222,19 @@ impl<'a, T: Scalar> Equation<'a, T> {
     /// K_ab.
     pub fn kernel(&self, a: usize, b: usize) -> &(dyn LineKernel<T> + 'a) {
         &*self.kernels[a * self.components() + b]
+    }
+
+    /// The homogeneous equation of the adjoint, ψ_a(x) − Σ_b ∫ K_ba(y, x)* ψ_b(y) dy = 0 (paper, §1.1.2, (1.6) mended).
+    pub fn adjoint(&self) -> Equation<'_, T> {
+        let m = self.components();
+        let transposed =
+            |k: usize| -> Box<dyn LineKernel<T> + '_> { Box::new(Adjoint(self.kernel(k % m, k / m))) };
+        let zero = || -> Box<dyn Source<T>> { Box::new(|_| T::ZERO) };
+        Equation {
+            interval: self.interval,
+            kernels: (0..m * m).map(transposed).collect(),
+            sources: (0..m).map(|_| zero()).collect(),
+        }
     }
 
     /// f_a(x).

@@ -1,0 +1,102 @@
+//! φ(x) = f(x) + Σ_q κ_q(x) φ_n(y_q): the solution as a function, by Nyström's interpolant (paper, (1.29)).
+
+use super::discrete::built;
+use super::panels::Panels;
+use crate::equation::{Function, Interval, Scalar};
+use crate::product::{COARSE, Change, Product};
+use std::sync::Arc;
+
+/// The piecewise polynomials with these values at the panels' nodes, component after component.
+#[derive(Debug)]
+pub(crate) struct PanelFunction<T> {
+    interval: Interval,
+    change: Change,
+    panels: Arc<Panels>,
+    values: Vec<T>,
+}
+
+impl<T: Scalar> PanelFunction<T> {
+    pub(crate) fn new<S: Scalar>(product: &Product<'_, '_, S>, panels: &Arc<Panels>, values: Vec<T>) -> Self {
+        let interval = product.equation().interval();
+        Self { interval, change: product.change(), panels: panels.clone(), values }
+    }
+
+    fn components(&self) -> usize {
+        self.values.len() / (self.panels.len() * COARSE.len())
+    }
+
+    fn panel(&self, c: usize, panel: usize) -> &[T] {
+        let p = COARSE.len();
+        &self.values[(c * self.panels.len() + panel) * p..][..p]
+    }
+
+    /// Component c at x; NaN outside the interval.
+    fn at(&self, c: usize, x: f64) -> T {
+        if !(self.interval.a() <= x && x <= self.interval.b()) {
+            return T::from(f64::NAN);
+        }
+        let t = self.change.parameter(x);
+        let (from, to) = self.change.range();
+        // At an end of the whole line the parameter is ∞/∞, and what is meant is the limit.
+        let t = if t.is_finite() {
+            t
+        } else if x > 0.0 {
+            to
+        } else {
+            from
+        };
+        let (panel, xi) = self.panels.locate(t);
+        COARSE.interpolate(self.panel(c, panel), xi)
+    }
+
+    /// As a function.
+    pub(crate) fn function<'e>(self) -> Function<'e, f64, T> {
+        Function::new(self.components(), move |c, x| self.at(c, *x))
+    }
+}
+
+/// Nyström's interpolant of φ_n; where its terms are not finite, as at an end where f is not defined, φ_n itself.
+pub(crate) fn interpolant<'e, 'a: 'e, T: Scalar>(
+    product: Arc<Product<'e, 'a, T>>,
+    phi: PanelFunction<T>,
+) -> Function<'e, f64, T> {
+    let components = phi.components();
+    let at = move |c: usize, x: &f64| {
+        let polynomial = phi.at(c, *x);
+        if !polynomial.finite() || !x.is_finite() {
+            return polynomial;
+        }
+        let value = product.equation().source(c, *x);
+        transported(&product, &phi, c, *x)
+            .map(|sum| value + sum)
+            .filter(|sum| sum.finite())
+            .unwrap_or(polynomial)
+    };
+    Function::new(components, at)
+}
+
+/// Σ_b Σ_q κ_q(x) φ_b(y_q).
+fn transported<T: Scalar>(
+    product: &Product<'_, '_, T>,
+    phi: &PanelFunction<T>,
+    c: usize,
+    x: f64,
+) -> Option<T> {
+    let t = phi.change.parameter(x);
+    let mut sum = T::ZERO;
+    for b in 0..phi.components() {
+        let row = built(product, (c, b), t, &phi.panels, &COARSE).ok()?;
+        for piece in &row.pieces {
+            let values = phi.panel(b, piece.panel);
+            let weights = &row.weights[piece.start..piece.end];
+            sum += if piece.whole {
+                weights.iter().zip(values).map(|(w, v)| *w * *v).sum::<T>()
+            } else {
+                let nodes = row.nodes[piece.start..piece.end].iter();
+                let at = |t: &f64| COARSE.interpolate(values, phi.panels.within(piece.panel, *t));
+                nodes.zip(weights).map(|(t, w)| *w * at(t)).sum::<T>()
+            };
+        }
+    }
+    Some(sum)
+}
