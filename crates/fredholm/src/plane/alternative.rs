@@ -13,6 +13,9 @@ const RESOLVED: f64 = 1e-11;
 /// f is orthogonal to ψ up to this part of their norms' product; rounding leaves 1e-15 of it.
 const ORTHOGONAL: f64 = 1e-12;
 
+/// `NoSolution`, `NotUnique` or nothing said, and the reasons.
+type Verdict<'e, T> = (Option<Status>, Alternative<'e, [f64; 2], T>);
+
 /// Whether the nodes resolve the functions that I − A all but annuls: a finer rule has the same A φ.
 pub(super) fn is_resolved<T: Scalar>(
     found: &Nystrom<'_, '_, T>,
@@ -38,7 +41,7 @@ pub(super) fn alternative<'e, T: Scalar>(
     found: &Nystrom<'e, '_, T>,
     finer: &Quadrature<[f64; 2]>,
     tolerance: f64,
-) -> Result<Option<(Option<Status>, Alternative<'e, [f64; 2], T>)>, EquationError> {
+) -> Result<Option<Verdict<'e, T>>, EquationError> {
     let Some(singular) = &found.singular else { return Ok(None) };
     let equation = found.equation;
     let functions = |values: &[Vec<T>], extend: &dyn Fn(Vec<T>) -> Function<'e, [f64; 2], T>| {

@@ -47,16 +47,16 @@ impl<'e, 'a, T: Scalar> Nystrom<'e, 'a, T> {
         let suspicious = n <= DECOMPOSED && (condition.is_nan() || condition >= SUSPICIOUS);
         let singular = suspicious.then(|| Singular::examine(&a, &rule.weights, &system)).flatten();
         if let Some(singular) = singular.as_ref().filter(|singular| singular.nullity() > 0) {
-            system = singular.bordered(&a, &rule.weights);
+            system = SecondKind::bordered(&a, &rule.weights, &singular.null, &singular.adjoint);
         }
-        let values = padded_solve(&system, &source);
+        let values = system.solve(&source);
         let weighted = weighted(&rule, &values);
         Ok(Self { equation, rule, system, norm, condition, singular, values, weighted })
     }
 
     /// (I − A)⁻¹ r; with a border, the part of it that is orthogonal to the null functions.
     pub(super) fn solve(&self, right: &[T]) -> Vec<T> {
-        padded_solve(&self.system, right)
+        self.system.solve(right)
     }
 
     /// ‖(I − A)⁻¹‖∞.
@@ -78,15 +78,6 @@ impl<'e, 'a, T: Scalar> Nystrom<'e, 'a, T> {
         let integral = integral(row, &self.rule.nodes, self.weighted.clone());
         Function::new(1, move |_, p: &[f64; 2]| (equation.source)(*p) + integral(p))
     }
-}
-
-/// u of a system, without the multipliers of a border.
-fn padded_solve<T: Scalar>(system: &SecondKind<T>, right: &[T]) -> Vec<T> {
-    let mut padded = right.to_vec();
-    padded.resize(system.len(), T::ZERO);
-    let mut solution = system.solve(&padded);
-    solution.truncate(right.len());
-    solution
 }
 
 /// w_j u_j.

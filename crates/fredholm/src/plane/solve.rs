@@ -34,6 +34,8 @@ const GROWTHS: [f64; 2] = [1.5, 1.2];
 struct Found<'e, 'a, T: Scalar> {
     nystrom: Nystrom<'e, 'a, T>,
     error: Error,
+    /// Whether the nodes tell small singular values from zero.
+    resolved: bool,
     /// `NoSolution` or `NotUnique`.
     verdict: Option<Status>,
     alternative: Option<Alternative<'e, [f64; 2], T>>,
@@ -65,7 +67,8 @@ pub fn solve<'e, 'a, T: Scalar>(
         let Some(next) = refined(found, &mesh, options)? else { break };
         mesh = next;
         let found = attempt(equation, &mesh, options.tolerance)?;
-        if found.verdict.is_some() || found.error.estimate() < best.error.estimate() {
+        let is_told = found.verdict.is_some() || found.resolved && !best.resolved;
+        if is_told || found.error.estimate() < best.error.estimate() {
             best = found;
             latest = None;
         } else {
@@ -96,13 +99,15 @@ fn attempt<'e, 'a, T: Scalar>(
     let nystrom = Nystrom::new(equation, mesh.rule())?;
     let finer = mesh.finer();
     let mut error = error(&nystrom, &finer)?;
+    let resolved = is_resolved(&nystrom, &finer)?;
     let (mut verdict, mut told) = (None, None);
-    if is_resolved(&nystrom, &finer)? {
+    if resolved {
         (verdict, told) = alternative(&nystrom, &finer, tolerance)?.unzip();
-    } else {
+    } else if nystrom.singular.as_ref().is_some_and(|singular| singular.nullity() > 0) {
+        // The solution is orthogonal to what may be no null function.
         error.correction = f64::INFINITY;
     }
-    Ok(Found { nystrom, error, verdict: verdict.flatten(), alternative: told })
+    Ok(Found { nystrom, error, resolved, verdict: verdict.flatten(), alternative: told })
 }
 
 /// The next mesh; none where more nodes do not help or are not allowed.
@@ -123,7 +128,7 @@ fn refined<T: Scalar>(
 
 impl<'e, T: Scalar> Found<'e, '_, T> {
     fn meets(&self, tolerance: f64) -> bool {
-        self.error.estimate() <= tolerance * largest(&self.nystrom.values)
+        self.resolved && self.error.estimate() <= tolerance * largest(&self.nystrom.values)
     }
 
     fn is_final(&self, tolerance: f64) -> bool {
