@@ -120,23 +120,9 @@ impl<T: Scalar> Singular<T> {
         self.contributions.iter().all(|size| *size <= RESOLVED)
     }
 
-    /// I − A bordered by the null functions, which makes it regular: its solution u, c with (I − A) u + Σ c_k ψ_k = f is
-    /// orthogonal to the φ_k, and c = 0 where the equation can be solved.
+    /// I − A bordered by the null functions.
     pub(crate) fn bordered(&self, a: &[T], weights: &[f64]) -> SecondKind<T> {
-        let n = weights.len();
-        let size = n + self.nullity();
-        let mut border = vec![T::ZERO; size * size];
-        for i in 0..n {
-            border[i * size..][..n].copy_from_slice(&a[i * n..][..n]);
-        }
-        for (k, (phi, psi)) in self.null.iter().zip(&self.adjoint).enumerate() {
-            for i in 0..n {
-                border[i * size + n + k] = -psi[i];
-                border[(n + k) * size + i] = -(phi[i].conjugate() * weights[i]);
-            }
-            border[(n + k) * size + n + k] = T::ONE;
-        }
-        SecondKind::new(size, &border)
+        SecondKind::bordered(a, weights, &self.null, &self.adjoint)
     }
 
     /// Whether f, given at the fine nodes with their weights, is orthogonal to the adjoint's null functions; `None` where
