@@ -38,9 +38,29 @@ impl<T: Scalar> SecondKind<T> {
         self.matrix.nrows()
     }
 
-    /// u with (I − A) u = f.
+    /// A bordered by the null functions φ_k of I − A and those ψ_k of its adjoint, which makes it regular: its solution
+    /// u, c with (I − A) u + Σ c_k ψ_k = f is orthogonal to the φ_k for the product Σ weights u v̄, and c = 0 where
+    /// (I − A) u = f can be solved.
+    pub(crate) fn bordered(a: &[T], weights: &[f64], null: &[Vec<T>], adjoint: &[Vec<T>]) -> Self {
+        let n = weights.len();
+        let size = n + null.len();
+        let mut border = vec![T::ZERO; size * size];
+        for i in 0..n {
+            border[i * size..][..n].copy_from_slice(&a[i * n..][..n]);
+        }
+        for (k, (phi, psi)) in null.iter().zip(adjoint).enumerate() {
+            for i in 0..n {
+                border[i * size + n + k] = -psi[i];
+                border[(n + k) * size + i] = -(phi[i].conjugate() * weights[i]);
+            }
+            border[(n + k) * size + n + k] = T::ONE;
+        }
+        Self::new(size, &border)
+    }
+
+    /// u with (I − A) u = f. With a border f is without its zeros, and u without the multipliers c.
     pub(crate) fn solve(&self, f: &[T]) -> Vec<T> {
-        let mut u = Mat::from_fn(f.len(), 1, |i, _| f[i]);
+        let mut u = Mat::from_fn(self.len(), 1, |i, _| f.get(i).copied().unwrap_or(T::ZERO));
         self.factors.solve_in_place(u.as_mut());
         (0..f.len()).map(|i| u[(i, 0)]).collect()
     }

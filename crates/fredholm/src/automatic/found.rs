@@ -36,15 +36,6 @@ impl<T: Scalar> PanelFunction<T> {
             return T::from(f64::NAN);
         }
         let t = self.change.parameter(x);
-        let (from, to) = self.change.range();
-        // At an end of the whole line the parameter is ∞/∞, and what is meant is the limit.
-        let t = if t.is_finite() {
-            t
-        } else if x > 0.0 {
-            to
-        } else {
-            from
-        };
         let (panel, xi) = self.panels.locate(t);
         COARSE.interpolate(self.panel(c, panel), xi)
     }

@@ -48,7 +48,7 @@ pub fn solve<'e, 'a: 'e, T: Scalar>(
     options: &Options,
 ) -> Result<Answer<'e, f64, T>, EquationError> {
     let plain = Arc::new(Product::new(equation, options.class)?);
-    let (attempt, ending) = search(&plain, 1, options)?;
+    let (attempt, ending) = search(&plain, plain.change().least_panels(), options)?;
     if ending != Ending::AtEnds {
         return Ok(answer(&plain, attempt, options.tolerance));
     }

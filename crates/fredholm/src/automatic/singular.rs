@@ -59,19 +59,18 @@ pub(crate) fn examine<T: Scalar>(
         distance_to_spectrum: f64::NAN,
         contributions: right.residuals,
     };
-    if nullity == 0 || !singular.resolved() {
-        return Ok(Some(singular));
+    if nullity > 0 && singular.resolved() {
+        let equation = product.equation().adjoint();
+        let transposed = product.adjoint(&equation);
+        let coarse = Discrete::assemble(&transposed, panels, &COARSE)?;
+        let fine = Discrete::assemble(&transposed, panels, &FINE)?;
+        let factors = SecondKind::new(coarse.n, &coarse.a);
+        let Some(left) = nearly_annulled(&transposed, panels, &coarse, &fine, &factors) else {
+            return Ok(None);
+        };
+        singular.adjoint = left.functions.into_iter().take(nullity).collect();
+        singular.contributions.iter_mut().zip(left.residuals).for_each(|(one, other)| *one = one.max(other));
     }
-    let equation = product.equation().adjoint();
-    let transposed = product.adjoint(&equation);
-    let coarse_adjoint = Discrete::assemble(&transposed, panels, &COARSE)?;
-    let fine_adjoint = Discrete::assemble(&transposed, panels, &FINE)?;
-    let factors = SecondKind::new(coarse_adjoint.n, &coarse_adjoint.a);
-    let Some(left) = nearly_annulled(&transposed, panels, &coarse_adjoint, &fine_adjoint, &factors) else {
-        return Ok(None);
-    };
-    singular.adjoint = left.functions.into_iter().take(nullity).collect();
-    singular.contributions.iter_mut().zip(left.residuals).for_each(|(one, other)| *one = one.max(other));
     if singular.resolved() {
         let Some(eigenvalues) = eigen(coarse.n, &coarse.a) else { return Ok(None) };
         let distances = eigenvalues.iter().map(|(value, _)| (value - 1.0).norm());
@@ -121,23 +120,9 @@ impl<T: Scalar> Singular<T> {
         self.contributions.iter().all(|size| *size <= RESOLVED)
     }
 
-    /// I − A bordered by the null functions, which makes it regular: its solution u, c with (I − A) u + Σ c_k ψ_k = f is
-    /// orthogonal to the φ_k, and c = 0 where the equation can be solved.
+    /// I − A bordered by the null functions.
     pub(crate) fn bordered(&self, a: &[T], weights: &[f64]) -> SecondKind<T> {
-        let n = weights.len();
-        let size = n + self.nullity();
-        let mut border = vec![T::ZERO; size * size];
-        for i in 0..n {
-            border[i * size..][..n].copy_from_slice(&a[i * n..][..n]);
-        }
-        for (k, (phi, psi)) in self.null.iter().zip(&self.adjoint).enumerate() {
-            for i in 0..n {
-                border[i * size + n + k] = -psi[i];
-                border[(n + k) * size + i] = -(phi[i].conjugate() * weights[i]);
-            }
-            border[(n + k) * size + n + k] = T::ONE;
-        }
-        SecondKind::new(size, &border)
+        SecondKind::bordered(a, weights, &self.null, &self.adjoint)
     }
 
     /// Whether f, given at the fine nodes with their weights, is orthogonal to the adjoint's null functions; `None` where
@@ -151,8 +136,13 @@ impl<T: Scalar> Singular<T> {
         let exact = defects(source);
         let smoothed = defects(&refined(&coarsened(source)));
         let allowed = tolerance.max(1e-12) * inner(source, source).modulus().sqrt();
-        let doubt =
+        let change =
             exact.iter().zip(smoothed).map(|(one, other)| (*one - other).modulus()).fold(0.0, f64::max);
+        // What the panels do not show of f could be orthogonal to ψ or not.
+        let parts = source.chunks(FINE.len()).zip(weights.chunks(FINE.len()));
+        let unseen: f64 = parts.map(|(f, w)| FINE.unresolved(f) * w.iter().sum::<f64>()).sum();
+        let size = self.adjoint.iter().map(|psi| largest(psi)).fold(0.0, f64::max);
+        let doubt = change + unseen * size;
         let defect = largest(&exact);
         self.defects = exact;
         if defect <= allowed {

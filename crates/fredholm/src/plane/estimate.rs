@@ -5,6 +5,7 @@
 use super::mesh::Mesh;
 use super::nystrom::{Nystrom, integrals, weighted};
 use crate::equation::{EquationError, Scalar};
+use crate::quadrature::Quadrature;
 
 /// What is known of max |φ − φ_n|.
 #[derive(Clone, Copy, Debug)]
@@ -38,10 +39,12 @@ impl Error {
 }
 
 /// The error of a solution on `mesh`.
-pub(super) fn error<T: Scalar>(found: &Nystrom<'_, '_, T>, mesh: &Mesh) -> Result<Error, EquationError> {
-    let finer = mesh.finer();
+pub(super) fn error<T: Scalar>(
+    found: &Nystrom<'_, '_, T>,
+    finer: &Quadrature<[f64; 2]>,
+) -> Result<Error, EquationError> {
     let between = found.interpolate(&finer.nodes)?;
-    let integrand = weighted(&finer, &between);
+    let integrand = weighted(finer, &between);
     let residuals = |points: &[[f64; 2]], values: &[T]| -> Result<Vec<T>, EquationError> {
         let integral = integrals(found.equation, points, &finer.nodes, &integrand)?;
         let terms = points.iter().zip(values).zip(integral);
@@ -56,7 +59,7 @@ pub(super) fn error<T: Scalar>(found: &Nystrom<'_, '_, T>, mesh: &Mesh) -> Resul
     let at_probes: Vec<T> = residual.iter().zip(rest).map(|(r, rest)| *r + rest).collect();
 
     let size = largest(&found.values).max(largest(&between));
-    let amplified = found.inverse_norm * (1.0 + found.norm) * size;
+    let amplified = found.inverse_norm() * (1.0 + found.norm) * size;
     let seen = [&correction, &at_probes, &residual].map(|values| largest(values));
     Ok(Error { correction: seen.into_iter().fold(0.0, f64::max), floor: ROUNDING * amplified })
 }

@@ -55,11 +55,12 @@ impl Element {
 
     /// With the defects that its rule has now.
     fn seen(mut self, defects: [f64; 2]) -> Self {
-        for d in 0..2 {
-            if self.now[d].count != self.counts[d] {
+        for (d, size) in defects.into_iter().enumerate() {
+            let count = self.counts[d];
+            if self.now[d].count != count {
                 self.before[d] = self.now[d];
             }
-            self.now[d] = Defect { count: self.counts[d], size: defects[d] };
+            self.now[d] = Defect { count, size };
         }
         self
     }

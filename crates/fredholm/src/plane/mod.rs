@@ -14,12 +14,13 @@
 //! # Ok::<(), fredholm::equation::EquationError>(())
 //! ```
 
-mod condition;
+mod alternative;
 mod domain;
 mod estimate;
 mod mesh;
 mod nystrom;
 mod piece;
+mod singular;
 mod solve;
 
 pub use domain::Domain;

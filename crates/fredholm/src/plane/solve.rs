@@ -1,10 +1,11 @@
 //! n grows until the estimated error meets the tolerance, and where growth does not pay the domain is divided.
 
 use super::PlaneEquation;
+use super::alternative::{alternative, is_resolved};
 use super::estimate::{Error, defects, error, largest};
 use super::mesh::Mesh;
 use super::nystrom::Nystrom;
-use crate::equation::{Answer, EquationError, Scalar, Status};
+use crate::equation::{Alternative, Answer, EquationError, Scalar, Status};
 
 /// How exactly, and at what cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,10 +30,15 @@ const FIRST: usize = 6;
 /// What counts are multiplied by; the second where the first asks for more than the most unknowns.
 const GROWTHS: [f64; 2] = [1.5, 1.2];
 
-/// A solution with its error.
+/// A solution with its error, and Fredholm's alternative if I − A is singular or close to it.
 struct Found<'e, 'a, T: Scalar> {
     nystrom: Nystrom<'e, 'a, T>,
     error: Error,
+    /// Whether the nodes tell small singular values from zero.
+    resolved: bool,
+    /// `NoSolution` or `NotUnique`.
+    verdict: Option<Status>,
+    alternative: Option<Alternative<'e, [f64; 2], T>>,
 }
 
 /// Solves by Nyström's method, with Gauss's rules on rectangles and triangles, and Gauss in r² and the trapezoid rule in the
@@ -54,14 +60,15 @@ pub fn solve<'e, 'a, T: Scalar>(
             "{needed} unknowns are asked for, and {most} are allowed"
         )));
     }
-    let mut best = attempt(equation, &mesh)?;
+    let mut best = attempt(equation, &mesh, options.tolerance)?;
     let mut latest = None;
-    while options.n.is_none() && !best.meets(options.tolerance) {
+    while options.n.is_none() && !best.is_final(options.tolerance) {
         let found = latest.as_ref().unwrap_or(&best);
         let Some(next) = refined(found, &mesh, options)? else { break };
         mesh = next;
-        let found = attempt(equation, &mesh)?;
-        if found.error.estimate() < best.error.estimate() {
+        let found = attempt(equation, &mesh, options.tolerance)?;
+        let is_told = found.verdict.is_some() || found.resolved && !best.resolved;
+        if is_told || found.error.estimate() < best.error.estimate() {
             best = found;
             latest = None;
         } else {
@@ -87,10 +94,20 @@ impl Options {
 fn attempt<'e, 'a, T: Scalar>(
     equation: &'e PlaneEquation<'a, T>,
     mesh: &Mesh,
+    tolerance: f64,
 ) -> Result<Found<'e, 'a, T>, EquationError> {
     let nystrom = Nystrom::new(equation, mesh.rule())?;
-    let error = error(&nystrom, mesh)?;
-    Ok(Found { nystrom, error })
+    let finer = mesh.finer();
+    let mut error = error(&nystrom, &finer)?;
+    let resolved = is_resolved(&nystrom, &finer)?;
+    let (mut verdict, mut told) = (None, None);
+    if resolved {
+        (verdict, told) = alternative(&nystrom, &finer, tolerance)?.unzip();
+    } else if nystrom.singular.as_ref().is_some_and(|singular| singular.nullity() > 0) {
+        // The solution is orthogonal to what may be no null function.
+        error.correction = f64::INFINITY;
+    }
+    Ok(Found { nystrom, error, resolved, verdict: verdict.flatten(), alternative: told })
 }
 
 /// The next mesh; none where more nodes do not help or are not allowed.
@@ -104,28 +121,33 @@ fn refined<T: Scalar>(
     }
     let defects = defects(&found.nystrom, mesh)?;
     let target = found.error.floor.max(options.tolerance * largest(&found.nystrom.values))
-        / found.nystrom.inverse_norm;
+        / found.nystrom.inverse_norm();
     let meshes = GROWTHS.map(|growth| mesh.refined(&defects, target, growth));
     Ok(meshes.into_iter().find(|next| next.unknowns() <= options.unknowns))
 }
 
 impl<'e, T: Scalar> Found<'e, '_, T> {
     fn meets(&self, tolerance: f64) -> bool {
-        self.error.estimate() <= tolerance * largest(&self.nystrom.values)
+        self.resolved && self.error.estimate() <= tolerance * largest(&self.nystrom.values)
+    }
+
+    fn is_final(&self, tolerance: f64) -> bool {
+        self.meets(tolerance) || self.verdict == Some(Status::NoSolution)
     }
 
     fn into_answer(self, tolerance: f64) -> Answer<'e, [f64; 2], T> {
-        let status = if self.meets(tolerance) { Status::Converged } else { Status::ToleranceNotMet };
+        let met = if self.meets(tolerance) { Status::Converged } else { Status::ToleranceNotMet };
+        let none = self.verdict == Some(Status::NoSolution);
         let nystrom = self.nystrom;
         Answer {
-            status,
+            status: self.verdict.unwrap_or(met),
             method: format!("nystrom, product rule on the {}", nystrom.equation.domain),
             class: None,
             unknowns: nystrom.values.len(),
-            error_estimate: self.error.estimate(),
-            condition: nystrom.norm * nystrom.inverse_norm,
-            solution: nystrom.into_function(),
-            alternative: None,
+            error_estimate: if none { f64::INFINITY } else { self.error.estimate() },
+            condition: nystrom.condition,
+            solution: nystrom.function(),
+            alternative: self.alternative,
         }
     }
 }

@@ -14,7 +14,7 @@ pub(crate) enum Change {
     Graded { a: f64, b: f64 },
     /// x = a ± (1 − t) / t on (0, 1]: a half-line that begins at a. Infinity is at 0, where doubles are dense.
     HalfLine { a: f64, sign: f64 },
-    /// x = t / (1 − t²) on (−1, 1): the whole line.
+    /// x = (1 − |t|) / t on [−1, 0) and (0, 1]: the whole line, cut at 0, with both infinities where doubles are dense.
     WholeLine,
 }
 
@@ -51,6 +51,11 @@ impl Change {
         }
     }
 
+    /// How many equal panels there must be, at least: no panel may have an infinity within it.
+    pub(crate) fn least_panels(&self) -> usize {
+        if *self == Self::WholeLine { 2 } else { 1 }
+    }
+
     /// x(t).
     pub(crate) fn point(&self, t: f64) -> f64 {
         match *self {
@@ -59,7 +64,7 @@ impl Change {
             Self::Graded { a, b } if t <= 0.5 => a + (b - a) * (t.powi(GRADING) / denominator(t)),
             Self::Graded { a, b } => b - (b - a) * ((1.0 - t).powi(GRADING) / denominator(t)),
             Self::HalfLine { a, sign } => a + sign * ((1.0 - t) / t),
-            Self::WholeLine => t / ((1.0 - t) * (1.0 + t)),
+            Self::WholeLine => (1.0 - t.abs()) / t,
         }
     }
 
@@ -71,8 +76,7 @@ impl Change {
                 let ratio = (t * (1.0 - t)).powi(GRADING - 1) / denominator(t).powi(2);
                 (b - a) * f64::from(GRADING) * ratio
             }
-            Self::HalfLine { .. } => t.powi(-2),
-            Self::WholeLine => (1.0 + t * t) / ((1.0 - t) * (1.0 + t)).powi(2),
+            Self::HalfLine { .. } | Self::WholeLine => t.powi(-2),
         }
     }
 
@@ -82,16 +86,15 @@ impl Change {
         match *self {
             Self::Identity { .. } => tau,
             Self::Graded { a, b } => {
-                // a^q − b^q = (a − b) Σ a^k b^(q−1−k), and a − b is τ.
-                let (up, down) = (next * (1.0 - t), t * (1.0 - next));
-                let sum: f64 = (0..GRADING).map(|k| up.powi(k) * down.powi(GRADING - 1 - k)).sum();
+                // u^q − v^q = (u − v) Σ u^k v^(q−1−k) with u = t⁺ (1 − t) and v = t (1 − t⁺), for which u − v is τ.
+                let (up, down) = (next * (1.0 - t), t * ((1.0 - t) - tau));
+                let (up2, down2) = (up * up, down * down);
+                let sum = up2 * up2 + up * down * (up2 + down2) + up2 * down2 + down2 * down2;
                 (b - a) * (tau * sum / (denominator(t) * denominator(next)))
             }
             Self::HalfLine { sign, .. } => -sign * (tau / (t * next)),
-            Self::WholeLine => {
-                let (here, there) = ((1.0 - t) * (1.0 + t), (1.0 - next) * (1.0 + next));
-                tau * (1.0 + t * next) / (here * there)
-            }
+            Self::WholeLine if (t > 0.0) == (next > 0.0) => -(tau / (t * next)),
+            Self::WholeLine => self.point(next) - self.point(t),
         }
     }
 
@@ -105,7 +108,7 @@ impl Change {
                 root(from) / (root(from) + root(to))
             }
             Self::HalfLine { a, sign } => 1.0 / (1.0 + sign * (x - a)),
-            Self::WholeLine => 2.0 * x / (1.0 + (1.0 + 4.0 * x * x).sqrt()),
+            Self::WholeLine => (1.0 / (1.0 + x.abs())).max(f64::MIN_POSITIVE).copysign(x),
         }
     }
 }
@@ -129,7 +132,7 @@ mod tests {
             Change::WholeLine,
         ];
         for change in changes {
-            for t in [0.12, 0.3, 0.5, 0.77] {
+            for t in [-0.4, 0.12, 0.3, 0.5, 0.77].into_iter().filter(|t| *t >= change.range().0) {
                 assert!((change.parameter(change.point(t)) - t).abs() < 1e-14, "{change:?}");
                 let step = change.point(t + 1e-3) - change.point(t);
                 assert!((change.offset(t, 1e-3) / step - 1.0).abs() < 1e-11, "{change:?}");

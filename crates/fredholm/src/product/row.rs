@@ -17,6 +17,10 @@ const PART: f64 = 30.0;
 /// Halvings of a panel; a jump is then within 2⁻⁵⁰ of the panel.
 const DEPTH: u32 = 50;
 
+/// Where a piece with the diagonal in it is looked at once more, as a part of its length. At the diagonal itself there may
+/// be 0/0.
+const PROBE: f64 = 1e-9;
+
 /// A kernel as a function of t, seen from a fixed t.
 pub(crate) struct Sampler<'k, T> {
     kernel: &'k dyn LineKernel<T>,
@@ -195,13 +199,28 @@ impl<'k, T: Scalar> RowBuilder<'k, T> {
         Ok(())
     }
 
+    /// Samples K at the rule's nodes; what is returned is large where they do not resolve it.
     fn sample(&mut self, from: f64, to: f64, rule: &Reference) -> Result<f64, EquationError> {
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         self.tau.clear();
         self.tau.extend(rule.nodes.iter().map(|xi| middle + half * xi));
-        self.values.resize(rule.len(), T::ZERO);
+        // A peak on the diagonal that is much thinner than the piece is between its nodes.
+        let probe = (from <= 0.0 && to >= 0.0).then_some(if to > 0.0 { PROBE * to } else { PROBE * from });
+        self.tau.extend(probe);
+        self.values.resize(self.tau.len(), T::ZERO);
         self.sampler.sample(&self.tau, &mut self.values)?;
-        Ok(rule.unresolved(&self.values))
+        let seen = probe.map(|tau| (tau, self.values[rule.len()]));
+        self.tau.truncate(rule.len());
+        self.values.truncate(rule.len());
+        let tail = rule.unresolved(&self.values);
+        Ok(match seen {
+            Some((tau, value)) => {
+                let missed = (value - rule.interpolate(&self.values, (tau - middle) / half)).modulus();
+                let explained = 1e3 * (tail + f64::EPSILON * self.largest().max(value.modulus()));
+                if missed > explained { missed } else { tail }
+            }
+            None => tail,
+        })
     }
 
     /// Samples K dτ/ds at τ = core · s^power; the tail is that of K dτ/ds as a function of s.

@@ -71,4 +71,8 @@ impl<T> LineKernel<T> for Borrowed<'_, T> {
     fn row(&self, x: f64, y: &[f64], offset: &[f64], row: &mut [T]) {
         self.0.row(x, y, offset, row);
     }
+
+    fn takes_offset(&self) -> bool {
+        self.0.takes_offset()
+    }
 }
