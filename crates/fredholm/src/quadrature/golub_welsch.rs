@@ -15,7 +15,9 @@ impl Recurrence {
     /// nodes ascending.
     ///
     /// O(n²) operations. Eigenvalues as G. Golub and J. Welsch found them, then one step of Newton's method; weights by
-    /// Christoffel's sum, so that small ones are as accurate as large ones. Weights below 1e-308 are 0.
+    /// Christoffel's sum, so that small ones are as accurate as large ones. Weights below 1e-308 are 0. Where a weight is
+    /// singular at an end that is not 0, the nodes there cannot say how near they are, and digits are lost with n;
+    /// [`super::gauss_jacobi`] keeps them.
     pub fn gauss(&self) -> Quadrature<f64> {
         let n = self.degree();
         let beside: Vec<f64> = self.beside.iter().map(|beside| beside.sqrt()).collect();
