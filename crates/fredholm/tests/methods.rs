@@ -486,7 +486,6 @@ fn honest(problems: impl Iterator<Item = Problem>, setups: &[Setup]) {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     ratios.sort_by(f64::total_cmp);
     let (median, most) = (ratios[ratios.len() / 2], ratios[ratios.len() * 9 / 10]);
-    println!("{} estimates: median {median:.1}, 90 % below {most:.1}", ratios.len());
     assert!(median < 20.0 && most < 300.0, "median {median}, 90 % below {most}");
 }
 
