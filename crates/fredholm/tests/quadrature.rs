@@ -160,6 +160,17 @@ fn gauss_rules_have_order_2n_minus_1_for_their_weight_and_no_more() {
 }
 
 #[test]
+fn legendres_series_and_recurrence_meet() {
+    for n in [45, 49, 50, 51, 60, 99, 100] {
+        let (rule, other) = (gauss_legendre(n, -1.0, 1.0), Recurrence::legendre(n).gauss());
+        for k in 0..n {
+            assert!((rule.nodes[k] - other.nodes[k]).abs() < 5e-16, "{n}: node {k}");
+            close(rule.weights[k], other.weights[k], 2e-13);
+        }
+    }
+}
+
+#[test]
 fn strong_singularities_keep_their_digits() {
     // ∫₀¹ x^{k−0.9} (1 − x)² dx.
     let rule = gauss_jacobi(1000, 2.0, -0.9, 0.0, 1.0).unwrap();
