@@ -26,7 +26,7 @@ pub fn bernoulli(p: usize) -> Result<f64, QuadratureError> {
 }
 
 fn sign(p: usize) -> f64 {
-    if p % 4 == 0 { -1.0 } else { 1.0 }
+    if p.is_multiple_of(4) { -1.0 } else { 1.0 }
 }
 
 /// |b_p| = p T / (4^{p/2} (4^{p/2} − 1)), T the tangent number of index p/2 (1, 2, 16, 272, …), by a sum without signs.

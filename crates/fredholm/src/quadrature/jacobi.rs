@@ -77,7 +77,7 @@ fn nodes(n: usize, alpha: f64, beta: f64) -> Vec<Node> {
         let right = EndForm::jacobi(n, alpha, beta).roots(&right);
         // The node in the middle counts once, all others twice.
         let count = |k: usize| if 2 * k + 1 == n { 1.0 } else { 2.0 };
-        let raw: Vec<Scaled> = right.iter().map(|root| scaled(root)).collect();
+        let raw: Vec<Scaled> = right.iter().map(scaled).collect();
         let weights = normalised(&raw, count, recurrence.mass);
         let right = right.iter().zip(weights).map(|(root, weight)| Node::from_right(root.t, weight));
         return mirrored(n, right.collect());

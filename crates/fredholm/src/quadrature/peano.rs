@@ -16,8 +16,9 @@ impl Recurrence {
     /// is told from one of order 4001. Where the error itself is rounding, an order too high is found, or none: for
     /// composite rules of a thousand panels, and for Gauss–Hermite and –Laguerre from 40 and 20 nodes on.
     pub fn order(&self, rule: &Quadrature<f64>) -> Option<usize> {
-        let wrong =
-            |(k, [defect, size]): (usize, &[f64; 2])| !(defect.abs() <= ROUNDING * (k as f64 + 16.0) * size);
+        let wrong = |(k, [defect, size]): (usize, &[f64; 2])| {
+            defect.is_nan() || defect.abs() > ROUNDING * (k as f64 + 16.0) * size
+        };
         self.defects(rule).iter().enumerate().position(wrong)?.checked_sub(1)
     }
 
