@@ -1,7 +1,7 @@
 //! What may be said on the command line.
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
-use radiosity::solve;
+use crate::radiosity::args::{EXAMPLES as RADIOSITY_EXAMPLES, Radiosity};
+use clap::{Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
 /// Fredholm integral equations of the second kind, φ = f + ρ ∫ K φ: solved, with the error of the answer.
@@ -17,206 +17,11 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Solve the diffuse light of a scene, B = E + ρ ∫ K B, and draw it
-    #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+    #[command(after_help = RADIOSITY_EXAMPLES, allow_negative_numbers = true)]
     Radiosity(Box<Radiosity>),
     /// Print a quadrature rule, its order and its error constant; or integrate a formula
     #[command(after_help = crate::quadrature::args::EXAMPLES)]
     Quadrature(Box<crate::quadrature::args::Quadrature>),
-}
-
-const EXAMPLES: &str = "\
-A face has a front, from which its corners run counter-clockwise; it emits and reflects from there
-and blocks light from both sides. In an MTL file Kd is the reflectance and Ke the radiance emitted,
-in W/(m² sr), so that the surface sends out π Ke W/m². A scene file, of which only unit and meshes
-must be there:
-
-  unit = \"mm\"                          # of the meshes and of all lengths below
-  meshes = [\"room.obj\"]
-  [materials.lamp]                     # as named by usemtl
-  radiance = [30, 28, 20]              # or emission, in W/m²; reflectance is a number or three
-  [camera]                             # found by itself if left out
-  position = [8500, 500, 1700]
-  target = [2200, 4600, 1600]
-  [solve]                              # patch_size, method, solver, accuracy, tolerance
-  patch_size = 250
-
-\
-Examples:
-  fredholm radiosity                                  the Cornell box, as cornell-box.png
-  fredholm radiosity room.toml --patch-size 0.1       a scene of yours, in patches of 10 cm
-  fredholm radiosity --false-colour -o map.png        radiosity in W/m² as a map
-  fredholm radiosity --json - | jq .closure_defect    the numbers alone
-  fredholm radiosity --solver southwell --ambient --frames shots    the light, shot by shot
-
-Exit codes: 0 solved; 1 an error; 2 a mistake on the command line; 3 all is written, but the
-residual did not reach the tolerance within the iterations.";
-
-/// Options of `fredholm radiosity`. What is `None` is left to the scene file, and then to a default.
-#[derive(Debug, Args)]
-pub struct Radiosity {
-    /// The scene: .toml, or a mesh in metres (.obj with its .mtl); the Cornell box if left out
-    #[arg(help_heading = "Scene")]
-    pub scene: Option<PathBuf>,
-
-    /// The channels of light; `spectral` is for the Cornell box
-    #[arg(long, value_enum, default_value_t = Bands::Rgb, help_heading = "Scene")]
-    pub bands: Bands,
-
-    /// The longest that an edge of a patch may be, in metres
-    #[arg(long, value_name = "METRES", value_parser = positive, help_heading = "Scene")]
-    pub patch_size: Option<f64>,
-
-    /// About how many patches to make, instead of their size [default: 5000]
-    #[arg(
-        long,
-        value_name = "N",
-        value_parser = at_least_one,
-        conflicts_with = "patch_size",
-        help_heading = "Scene"
-    )]
-    pub patch_count: Option<usize>,
-
-    /// How the equation becomes numbers [default: galerkin]
-    #[arg(long, value_enum, help_heading = "Equation")]
-    pub method: Option<Method>,
-
-    /// How the numbers are solved for [default: gauss-seidel]
-    #[arg(long, value_enum, help_heading = "Equation")]
-    pub solver: Option<Solver>,
-
-    /// Add the ambient estimate of the light still to be shot to the frames of the southwell solver
-    #[arg(long, requires = "frames", help_heading = "Equation")]
-    pub ambient: bool,
-
-    /// The standard error that the form factors of a patch may have in sum [default: 1e-3]
-    #[arg(long, value_name = "ERROR", value_parser = positive, help_heading = "Equation")]
-    pub accuracy: Option<f64>,
-
-    /// The residual at which to stop, relative to the brightest emission [default: 1e-6]
-    #[arg(long, value_name = "RESIDUAL", value_parser = positive, help_heading = "Equation")]
-    pub tolerance: Option<f64>,
-
-    /// The most iterations [default: 1000; for southwell, 1000 per patch]
-    #[arg(long, value_name = "N", value_parser = at_least_one, help_heading = "Equation")]
-    pub iterations: Option<usize>,
-
-    /// Threads to work with [default: one per core]
-    #[arg(long, value_name = "N", value_parser = number(1, 1024), help_heading = "Equation")]
-    pub threads: Option<usize>,
-
-    /// Show radiosity as a colour, with a scale that says which
-    #[arg(long, alias = "false-color", help_heading = "Picture")]
-    pub false_colour: bool,
-
-    /// Pixels across and down
-    #[arg(long, value_name = "WxH", value_parser = size, default_value = "640x640", help_heading = "Picture")]
-    pub size: Size,
-
-    /// Rays per pixel that smooth the edges
-    #[arg(
-        long,
-        value_name = "K",
-        value_parser = number(1, 4096),
-        default_value = "9",
-        help_heading = "Picture"
-    )]
-    pub samples: usize,
-
-    /// Rays per pixel that gather the light of other surfaces
-    #[arg(
-        long,
-        value_name = "N",
-        value_parser = number(1, 1_000_000),
-        default_value = "64",
-        help_heading = "Picture"
-    )]
-    pub gather: usize,
-
-    /// The final picture [default: the scene's name, if no other output is asked for]
-    #[arg(short, long, value_name = "FILE.png", value_parser = png, help_heading = "Output")]
-    pub output: Option<PathBuf>,
-
-    /// A picture of the patches after each iteration, as 00001.png … in this folder
-    #[arg(long, value_name = "DIR", help_heading = "Output")]
-    pub frames: Option<PathBuf>,
-
-    /// Iterations from one frame to the next [default: 1; for southwell, 100 shots]
-    #[arg(
-        long,
-        value_name = "K",
-        value_parser = at_least_one,
-        requires = "frames",
-        help_heading = "Output"
-    )]
-    pub every: Option<usize>,
-
-    /// The numbers of the run as JSON; `-` writes them alone to the standard output
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    pub json: Option<PathBuf>,
-
-    /// What is known of each patch, as a table or as NumPy arrays
-    #[arg(long, value_name = "FILE.csv|.npz", value_parser = patches, help_heading = "Output")]
-    pub patches: Option<PathBuf>,
-}
-
-/// The channels of light.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Bands {
-    /// Red, green and blue
-    Rgb,
-    /// The 76 measured bands of wavelength, with one matrix for all of them
-    Spectral,
-}
-
-/// [`solve::Method`], with words for the command line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Method {
-    /// Patch to patch: means over patches, orthogonal projection
-    Galerkin,
-    /// Point to patch: exact at the centres of patches, interpolation
-    Collocation,
-    /// Point to point: the kernel at the centres, with the areas as a quadrature
-    Nystrom,
-}
-
-/// [`solve::Solver`], with words for the command line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Solver {
-    /// Classical radiosity: each patch in turn gathers, by rows
-    GaussSeidel,
-    /// Progressive radiosity: the brightest patch shoots, by columns that are not stored
-    Southwell,
-    /// All patches gather at once
-    Jacobi,
-    /// Successive approximations: each iteration is one bounce of light
-    Successive,
-    /// Krylov's method: the least residual in the space of all bounces so far
-    Gmres,
-    /// LU factorisation: no iteration, and the time grows with the cube of the patches
-    Direct,
-}
-
-impl From<Method> for solve::Method {
-    fn from(method: Method) -> Self {
-        match method {
-            Method::Galerkin => Self::Galerkin,
-            Method::Collocation => Self::Collocation,
-            Method::Nystrom => Self::Nystrom,
-        }
-    }
-}
-
-impl From<Solver> for solve::Solver {
-    fn from(solver: Solver) -> Self {
-        match solver {
-            Solver::GaussSeidel => Self::GaussSeidel,
-            Solver::Southwell => Self::Southwell,
-            Solver::Jacobi => Self::Jacobi,
-            Solver::Successive => Self::Successive,
-            Solver::Gmres => Self::Gmres,
-            Solver::Direct => Self::Direct,
-        }
-    }
 }
 
 /// The name of a choice, as it is typed.
@@ -224,39 +29,19 @@ pub fn name(choice: &impl ValueEnum) -> String {
     choice.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
 }
 
-/// Pixels of a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Size {
-    /// Across.
-    pub width: usize,
-    /// Down.
-    pub height: usize,
-}
-
-/// The longest side of a picture, and the most pixels: 8192 × 8192 of them take some 4 GB while they are drawn.
-const LONGEST: usize = 1 << 16;
-const MOST_PIXELS: usize = 1 << 26;
-
-fn size(text: &str) -> Result<Size, String> {
-    let side = |side: &str| side.parse().ok().filter(|side| (1..=LONGEST).contains(side));
-    text.split_once(['x', 'X'])
-        .and_then(|(width, height)| Some(Size { width: side(width)?, height: side(height)? }))
-        .filter(|size| size.width * size.height <= MOST_PIXELS)
-        .ok_or_else(|| {
-            format!("write width and height as 640x480, not more than {MOST_PIXELS} pixels in all")
-        })
-}
-
-fn positive(text: &str) -> Result<f64, String> {
+/// A positive finite number.
+pub fn positive(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|number: &f64| *number > 0.0 && number.is_finite());
     number.ok_or_else(|| "give a positive finite number".to_owned())
 }
 
-fn at_least_one(text: &str) -> Result<usize, String> {
+/// A whole number, 1 or more.
+pub fn at_least_one(text: &str) -> Result<usize, String> {
     number(1, usize::MAX)(text)
 }
 
-fn number(least: usize, most: usize) -> impl Fn(&str) -> Result<usize, String> + Clone {
+/// A whole number from `least` to `most`.
+pub fn number(least: usize, most: usize) -> impl Fn(&str) -> Result<usize, String> + Clone {
     move |text| {
         let range = if most == usize::MAX { "1 or more".to_owned() } else { format!("{least} to {most}") };
         let number = text.parse().ok().filter(|number| (least..=most).contains(number));
@@ -264,15 +49,8 @@ fn number(least: usize, most: usize) -> impl Fn(&str) -> Result<usize, String> +
     }
 }
 
-fn png(text: &str) -> Result<PathBuf, String> {
-    with_extension(text, &["png"])
-}
-
-fn patches(text: &str) -> Result<PathBuf, String> {
-    with_extension(text, &["csv", "npz"])
-}
-
-fn with_extension(text: &str, allowed: &[&str]) -> Result<PathBuf, String> {
+/// A path whose name has one of these extensions.
+pub fn with_extension(text: &str, allowed: &[&str]) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     let is = |extension: &&&str| path.extension().is_some_and(|own| own.eq_ignore_ascii_case(extension));
     match allowed.iter().find(is) {
@@ -289,14 +67,6 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         Cli::command().debug_assert();
-    }
-
-    #[test]
-    fn sizes_are_read() {
-        assert_eq!(size("640x480"), Ok(Size { width: 640, height: 480 }));
-        for bad in ["0x0", "640", "x", "-1x5", "99999x1", "1x1x1"] {
-            assert!(size(bad).is_err(), "{bad}");
-        }
     }
 
     #[test]

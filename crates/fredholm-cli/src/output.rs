@@ -65,6 +65,15 @@ impl Output {
     }
 }
 
+/// Refuses to write two of the outputs of a run to the same file.
+pub fn refuse_twins(paths: &[Option<&Path>]) -> Result<()> {
+    let paths: Vec<&Path> = paths.iter().flatten().copied().collect();
+    match (1..paths.len()).find(|&k| paths[..k].contains(&paths[k])) {
+        Some(k) => bail!("two outputs are to be written to {}; give each its own file", paths[k].display()),
+        None => Ok(()),
+    }
+}
+
 fn buffered(
     file: &mut File,
     write: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>,
@@ -190,5 +199,12 @@ mod tests {
         let null = Path::new("/dev/null");
         Output::prepare(null).unwrap().write(|out| out.write_all(b"x")).unwrap();
         assert!(fs::metadata(null).unwrap().file_type().is_char_device());
+    }
+
+    #[test]
+    fn two_outputs_need_two_files() {
+        let (a, b) = (Some(Path::new("a")), Some(Path::new("b")));
+        assert!(refuse_twins(&[a, None, b]).is_ok());
+        assert!(refuse_twins(&[a, b, a]).is_err());
     }
 }

@@ -4,8 +4,8 @@ pub mod args;
 mod rules;
 
 use crate::args::name;
+use crate::ending::Ending;
 use crate::output::Output;
-use crate::radiosity::Ending;
 use crate::terminal::{Stream, say};
 use anyhow::{Result, bail};
 use args::{Quadrature as Args, Rule};

@@ -1,10 +1,11 @@
 //! How far the work is, on the terminal, and the frames on the way; silent where nobody looks.
 
-use crate::args::{Method, name};
-use crate::frames::Frames;
-use crate::settings::Settings;
+use super::args::Method;
+use super::frames::Frames;
+use super::settings::Settings;
+use super::timing::Seconds;
+use crate::args::name;
 use crate::terminal::bar;
-use crate::timing::Seconds;
 use anyhow::Result;
 use fredholm::relax::Relaxation;
 use indicatif::ProgressBar;

@@ -1,11 +1,11 @@
 //! A picture per iteration: the patches as the solver has them.
 
-use crate::args::{Radiosity, Solver};
-use crate::domain::Domain;
+use super::args::{Radiosity, Solver};
+use super::domain::Domain;
+use super::outputs::write_png;
+use super::picture::{map, view};
+use super::settings::Settings;
 use crate::output::Folder;
-use crate::outputs::write_png;
-use crate::picture::{map, view};
-use crate::settings::Settings;
 use anyhow::Result;
 use fredholm::neumann::estimated_rest;
 use fredholm::relax::Relaxation;

@@ -1,7 +1,7 @@
 //! The numbers of a run as people read them.
 
-use crate::report::Report;
-use crate::timing::Seconds;
+use super::report::Report;
+use super::timing::Seconds;
 use std::fmt::Write;
 
 /// The table, a line per matter.

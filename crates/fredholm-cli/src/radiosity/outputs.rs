@@ -1,8 +1,9 @@
 //! Which files a run leaves, each prepared before the work begins.
 
-use crate::args::Radiosity;
-use crate::output::{Folder, Output};
-use anyhow::{Result, bail};
+use super::args::Radiosity;
+use crate::json::Json;
+use crate::output::{Folder, Output, refuse_twins};
+use anyhow::Result;
 use fredholm::value::Value;
 use image::{ImageFormat, RgbImage};
 use radiosity::export::{Field, write_csv, write_npz};
@@ -16,17 +17,9 @@ pub struct Outputs {
     /// What is known of each patch.
     pub patches: Option<Output>,
     /// The numbers of the run.
-    pub report: Option<Report>,
+    pub json: Option<Json>,
     /// A picture per iteration.
     pub frames: Option<Folder>,
-}
-
-/// Where the JSON goes.
-pub enum Report {
-    /// To the standard output, alone.
-    Terminal,
-    /// Into a file.
-    File(Output),
 }
 
 impl Outputs {
@@ -35,26 +28,14 @@ impl Outputs {
         let nothing_asked =
             args.output.is_none() && args.json.is_none() && args.patches.is_none() && args.frames.is_none();
         let picture = args.output.clone().or_else(|| nothing_asked.then(|| PathBuf::from(file_name(scene))));
-        let json = args.json.as_deref().filter(|path| *path != Path::new("-"));
-        refuse_twins(&[picture.as_deref(), json, args.patches.as_deref()])?;
+        refuse_twins(&[picture.as_deref(), args.json.as_deref(), args.patches.as_deref()])?;
         let prepare = |path: Option<&Path>| path.map(Output::prepare).transpose();
         Ok(Self {
             picture: prepare(picture.as_deref())?,
             patches: prepare(args.patches.as_deref())?,
-            report: match prepare(json)? {
-                Some(output) => Some(Report::File(output)),
-                None => args.json.is_some().then_some(Report::Terminal),
-            },
+            json: args.json.as_deref().map(Json::prepare).transpose()?,
             frames: args.frames.as_deref().map(Folder::prepare).transpose()?,
         })
-    }
-}
-
-fn refuse_twins(paths: &[Option<&Path>]) -> Result<()> {
-    let paths: Vec<&Path> = paths.iter().flatten().copied().collect();
-    match (1..paths.len()).find(|&k| paths[..k].contains(&paths[k])) {
-        Some(k) => bail!("two outputs are to be written to {}; give each its own file", paths[k].display()),
-        None => Ok(()),
     }
 }
 
@@ -105,12 +86,5 @@ mod tests {
             assert_eq!(file_name(scene), name);
         }
         assert!(file_name(&"x".repeat(999)).len() < 70);
-    }
-
-    #[test]
-    fn two_outputs_need_two_files() {
-        let (a, b) = (Some(Path::new("a")), Some(Path::new("b")));
-        assert!(refuse_twins(&[a, None, b]).is_ok());
-        assert!(refuse_twins(&[a, b, a]).is_err());
     }
 }

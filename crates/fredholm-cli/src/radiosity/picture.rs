@@ -1,7 +1,7 @@
 //! The picture of the solution.
 
-use crate::args::Radiosity;
-use crate::domain::Domain;
+use super::args::Radiosity;
+use super::domain::Domain;
 use crate::terminal::bar;
 use image::RgbImage;
 use radiosity::patches::Patches;

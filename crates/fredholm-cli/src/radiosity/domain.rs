@@ -1,6 +1,6 @@
 //! A scene made ready: its patches, and who sees whom.
 
-use crate::timing::{Seconds, timed};
+use super::timing::{Seconds, timed};
 use fredholm::value::Value;
 use radiosity::patches::{PatchError, Patches};
 use radiosity::polygon::Polygon;

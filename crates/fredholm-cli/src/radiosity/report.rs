@@ -1,10 +1,10 @@
 //! The numbers of a run: what `--json` writes and the table shows.
 
+use super::domain::Domain;
+use super::memory;
+use super::settings::Settings;
+use super::timing::Seconds;
 use crate::args::name;
-use crate::domain::Domain;
-use crate::memory;
-use crate::settings::Settings;
-use crate::timing::Seconds;
 use fredholm::relax::Outcome;
 use fredholm::value::Value;
 use radiosity::closure::Closure;

@@ -1,7 +1,8 @@
 //! How to solve: the command line's word before the scene file's, the scene file's before the default.
 
-use crate::args::{Method, Radiosity, Solver, name};
-use crate::memory;
+use super::args::{Method, Radiosity, Solver};
+use super::memory;
+use crate::args::name;
 use anyhow::{Result, bail};
 use clap::ValueEnum;
 use fredholm::value::Value;

@@ -1,17 +1,30 @@
 //! The walk: a scene becomes patches, form factors, a solved field, a picture and files.
 
-use crate::args::{Bands, Radiosity};
-use crate::domain::Domain;
-use crate::frames::Frames;
+pub mod args;
+mod domain;
+mod frames;
+mod memory;
+mod outputs;
+mod picture;
+mod progress;
+mod report;
+mod settings;
+mod table;
+mod timing;
+
+use self::args::{Bands, Radiosity};
+use self::domain::Domain;
+use self::frames::Frames;
+use self::outputs::{Outputs, write_field, write_png};
+use self::picture::draw;
+use self::progress::Watcher;
+use self::report::Report;
+use self::settings::Settings;
+use self::table::table;
+use self::timing::{Seconds, timed};
+use crate::ending::Ending;
+use crate::json::{self, Json};
 use crate::output::{Output, clear_on_interrupt};
-use crate::outputs::{Outputs, Report as ReportTo, write_field, write_png};
-use crate::picture::draw;
-use crate::progress::Watcher;
-use crate::report::Report;
-use crate::settings::Settings;
-use crate::table::table;
-use crate::terminal::{Stream, say};
-use crate::timing::{Seconds, timed};
 use anyhow::{Context, Result, bail};
 use fredholm::relax::Outcome;
 use fredholm::value::Value;
@@ -19,18 +32,8 @@ use radiosity::export::Field;
 use radiosity::render::Colour;
 use radiosity::scene::{Scene, SolveOptions, cornell_box, cornell_box_spectral, load};
 use radiosity::solve::{Solution, solve};
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-
-/// How a run ended that has written all its files.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ending {
-    /// The residual is as small as was asked.
-    Converged,
-    /// The iterations were used up.
-    NotConverged,
-}
 
 /// `fredholm radiosity`.
 pub fn command(args: &Radiosity) -> Result<Ending> {
@@ -64,7 +67,7 @@ fn walk<V: Colour>(
 ) -> Result<Ending> {
     let mut seconds = Seconds { load: start.elapsed().as_secs_f64(), ..Seconds::default() };
     let settings = Settings::new(args, wishes, args.scene.as_deref().unwrap_or(Path::new("")))?;
-    let Outputs { picture, patches, report, frames } = Outputs::prepare(args, &scene.name)?;
+    let Outputs { picture, patches, json, frames } = Outputs::prepare(args, &scene.name)?;
 
     let domain = Domain::new(scene, settings.size(scene), &mut seconds)?;
     let frames = frames.map(|folder| Frames::new(folder, args, &settings, &domain));
@@ -80,11 +83,10 @@ fn walk<V: Colour>(
     if let Some(output) = patches {
         files.push(timed(&mut seconds.write, || write_patches(output, &domain, &solution))?);
     }
-    if let Some(ReportTo::File(output)) = &report {
-        files.push(output.path().to_owned());
-    }
+    files.extend(json.as_ref().and_then(Json::file));
     seconds.total = start.elapsed().as_secs_f64();
-    tell(&Report::new(&domain, &settings, &solution, seconds, files), report)?;
+    let report = Report::new(&domain, &settings, &solution, seconds, files);
+    json::tell(json, &report, &table(&report))?;
     Ok(if solution.report.outcome == Outcome::Converged { Ending::Converged } else { Ending::NotConverged })
 }
 
@@ -96,22 +98,4 @@ fn write_patches<V: Value>(
     let Domain { scene, patches, .. } = domain;
     let field = Field { scene, patches, radiosity: &solution.radiosity, irradiance: &solution.irradiance };
     write_field(output, &field)
-}
-
-/// The table for people, and the JSON for programs where it is asked for.
-fn tell(report: &Report, to: Option<ReportTo>) -> Result<()> {
-    let mut json = serde_json::to_string_pretty(report)?;
-    json.push('\n');
-    let stream = match to {
-        None => Stream::Out,
-        Some(ReportTo::File(output)) => {
-            output.write(|out| out.write_all(json.as_bytes()))?;
-            Stream::Out
-        }
-        Some(ReportTo::Terminal) => {
-            say(Stream::Out, &json)?;
-            Stream::Err
-        }
-    };
-    Ok(say(stream, &table(report))?)
 }
