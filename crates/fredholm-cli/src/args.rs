@@ -1,6 +1,10 @@
 //! What may be said on the command line.
 
+use crate::compare::args::{Compare, EXAMPLES as COMPARE_EXAMPLES};
+use crate::problem::args::FORMULAS;
 use crate::radiosity::args::{EXAMPLES as RADIOSITY_EXAMPLES, Radiosity};
+use crate::solve::args::{EXAMPLES as SOLVE_EXAMPLES, Solve};
+use crate::spectrum::args::{EXAMPLES as SPECTRUM_EXAMPLES, Spectrum};
 use clap::{Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -16,6 +20,15 @@ pub struct Cli {
 /// The equations.
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Solve φ = f + ∫ K φ on an interval or in the plane, with the error
+    #[command(after_help = format!("{FORMULAS}\n\n{SOLVE_EXAMPLES}"), allow_negative_numbers = true)]
+    Solve(Box<Solve>),
+    /// Compare all methods on one equation, over growing n
+    #[command(after_help = format!("{FORMULAS}\n\n{COMPARE_EXAMPLES}"), allow_negative_numbers = true)]
+    Compare(Box<Compare>),
+    /// Find eigenvalues and eigenfunctions, ∫ K φ = λ φ
+    #[command(after_help = format!("{FORMULAS}\n\n{SPECTRUM_EXAMPLES}"), allow_negative_numbers = true)]
+    Spectrum(Box<Spectrum>),
     /// Solve the diffuse light of a scene, B = E + ρ ∫ K B, and draw it
     #[command(after_help = RADIOSITY_EXAMPLES, allow_negative_numbers = true)]
     Radiosity(Box<Radiosity>),

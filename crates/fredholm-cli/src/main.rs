@@ -1,12 +1,19 @@
 //! The command `fredholm`: integral equations, and the light in a building as one of them.
 
 mod args;
+mod compare;
 mod ending;
 mod json;
 mod output;
+mod outputs;
+mod plot;
+mod problem;
 mod quadrature;
 mod radiosity;
+mod solve;
+mod spectrum;
 mod terminal;
+mod text;
 
 use crate::args::{Cli, Command};
 use clap::Parser;
@@ -14,6 +21,9 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let ended = match Cli::parse().command {
+        Command::Solve(args) => solve::command(&args),
+        Command::Compare(args) => compare::command(&args),
+        Command::Spectrum(args) => spectrum::command(&args),
         Command::Radiosity(args) => radiosity::command(&args),
         Command::Quadrature(args) => quadrature::command(&args),
     };

@@ -4,17 +4,12 @@
 
 mod run;
 
-use run::{folder, fredholm, names, text};
-use serde_json::Value;
+use run::{folder, fredholm, json, names, text};
 use std::fs;
 use std::path::Path;
 
 /// Small pictures, few rays: what is tested is which files there are and what they say.
 const QUICK: &str = "radiosity --patch-count 200 --size 32x32 --samples 1 --gather 4";
-
-fn json(bytes: &[u8]) -> Value {
-    serde_json::from_slice(bytes).unwrap()
-}
 
 fn furnace() -> String {
     format!("{}/../../scenes/furnace/furnace.toml", env!("CARGO_MANIFEST_DIR"))

@@ -2,16 +2,11 @@
 
 use super::report::Report;
 use super::timing::Seconds;
-use std::fmt::Write;
+use crate::text;
 
 /// The table, a line per matter.
 pub fn table(report: &Report) -> String {
-    let mut text = format!("{}: {} with {}\n\n", report.scene, report.method, report.solver);
-    for (name, value) in lines(report) {
-        // Writing into a string does not fail.
-        let _ = writeln!(text, "  {name:<14}{value}");
-    }
-    text
+    format!("{}: {} with {}\n\n{}", report.scene, report.method, report.solver, text::lines(&lines(report)))
 }
 
 fn lines(report: &Report) -> Vec<(&'static str, String)> {

@@ -1,5 +1,8 @@
 //! Runs the command in a folder of its own.
 
+#![allow(dead_code, reason = "each test file uses some of it")]
+
+use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -14,8 +17,18 @@ pub fn folder(name: &str) -> PathBuf {
 
 /// `fredholm` with these words, separated by spaces.
 pub fn fredholm(folder: &Path, words: &str) -> Output {
+    fredholm_with(folder, &words.split_whitespace().collect::<Vec<_>>())
+}
+
+/// `fredholm` with these words, which may have spaces in them.
+pub fn fredholm_with(folder: &Path, words: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_fredholm"));
-    command.args(words.split_whitespace()).current_dir(folder).output().unwrap()
+    command.args(words).current_dir(folder).output().unwrap()
+}
+
+/// What was written, as JSON.
+pub fn json(bytes: &[u8]) -> Value {
+    serde_json::from_slice(bytes).unwrap()
 }
 
 /// What stands in a folder, sorted.
