@@ -19,6 +19,9 @@ pub enum Command {
     /// Solve the diffuse light of a scene, B = E + ρ ∫ K B, and draw it
     #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
     Radiosity(Box<Radiosity>),
+    /// Print a quadrature rule, its order and its error constant; or integrate a formula
+    #[command(after_help = crate::quadrature::args::EXAMPLES)]
+    Quadrature(Box<crate::quadrature::args::Quadrature>),
 }
 
 const EXAMPLES: &str = "\

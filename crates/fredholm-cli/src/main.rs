@@ -8,6 +8,7 @@ mod output;
 mod outputs;
 mod picture;
 mod progress;
+mod quadrature;
 mod radiosity;
 mod report;
 mod settings;
@@ -23,6 +24,7 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     let ended = match Cli::parse().command {
         Command::Radiosity(args) => radiosity::command(&args),
+        Command::Quadrature(args) => quadrature::command(&args),
     };
     match ended {
         Ok(Ending::Converged) => ExitCode::SUCCESS,
