@@ -82,6 +82,7 @@
 //! 4. [`operator`]: how F is *kept*, and what may be asked of it
 //! 5. [`system`]: the equation, its residual, the bound of the error
 //! 6. [`relax`], [`krylov`], [`direct`]: solving it; [`neumann`]: the series behind it
+//! 7. [`equation`], [`methods`]: equations on a line, and each of the paper's methods on them
 //!
 //! Section and equation numbers are those of G. Peyré, *Résolution numérique d'équations intégrales, exemple de la
 //! radiativité*, 2001. The crate `radiosity` is this theory applied to the light in a building.
@@ -92,6 +93,7 @@ pub mod discretize;
 pub mod equation;
 pub mod kernel;
 pub mod krylov;
+pub mod methods;
 pub mod neumann;
 pub mod operator;
 pub mod plane;

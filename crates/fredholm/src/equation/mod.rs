@@ -143,7 +143,10 @@ pub enum EquationError {
         value: String,
     },
     /// The kernel is infinite or NaN where it was sampled.
-    #[error("the kernel is {value} at x = {x}, y = {y}")]
+    #[error(
+        "the kernel is {value} at x = {x}, y = {y}: on the diagonal x = y, take collocation or the automatic method; elsewhere \
+         none can integrate it"
+    )]
     KernelNotFinite {
         /// Where.
         x: f64,
