@@ -419,6 +419,26 @@ fn close_to_an_eigenvalue_the_solution_is_unique() {
     assert!(outcome.error <= outcome.estimate && outcome.estimate < 1e-7);
 }
 
+/// The largest error is in the centre, where no rule of a disk has nodes. φ = 1.
+#[test]
+fn the_error_in_the_centre_of_a_disk_is_seen() {
+    let kernel = |[x, y]: Point, [s, t]: Point| 0.3 / (0.2 + (x - s).powi(2) + (y - t).powi(2));
+    // By Gauss in r and enough angles: to 1e-15.
+    let radii = gauss_legendre(60, 0.0, 1.2);
+    let angles = (0..240).map(|k| f64::from(k) * PI / 120.0);
+    let fine: Vec<(Point, f64)> = angles
+        .flat_map(|angle| {
+            let polar = |(r, w): (&f64, &f64)| ([r * angle.cos(), r * angle.sin()], w * r * PI / 120.0);
+            radii.nodes.iter().zip(&radii.weights).map(polar).collect::<Vec<_>>()
+        })
+        .collect();
+    let source = move |p: Point| 1.0 - fine.iter().map(|(q, w)| kernel(p, *q) * w).sum::<f64>();
+    let domain = Domain::disk([0.0, 0.0], 1.2).unwrap();
+    for n in [5, 8, 11] {
+        is_honest(&outcome(domain, kernel, &source, |_| 1.0, Options { n: Some(n), ..to(1e-12) }));
+    }
+}
+
 #[test]
 fn fixed_n_is_kept_and_its_error_told() {
     let kernel = |[x, y]: Point, [s, t]: Point| 0.5 * (-(x * s + y * t)).exp();

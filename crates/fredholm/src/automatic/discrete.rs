@@ -2,7 +2,7 @@
 
 use super::panels::Panels;
 use crate::equation::{EquationError, Scalar};
-use crate::product::{Product, Reference, RowBuilder};
+use crate::product::{OnPanel, Product, Reference};
 use rayon::prelude::*;
 
 /// The operator of an equation or system from panel polynomials to values at the panels' nodes; the unknowns of one
@@ -39,9 +39,11 @@ impl<T: Scalar> Discrete<T> {
             let (component, t) = (i / nodes.len(), nodes[i % nodes.len()]);
             let mut seen = Seen::none(panels.len());
             for (b, part) in row.chunks_mut(nodes.len()).enumerate() {
-                let builder = built(product, (component, b), t, panels, reference)?;
-                contract(&builder, panels, reference, part);
-                seen.see(&builder);
+                let mut builder = product.builder((component, b), t);
+                for (k, part) in part.chunks_mut(reference.len()).enumerate() {
+                    let on_panel = builder.panel(panels.ends(k), reference, part)?;
+                    seen.see(k, on_panel, part);
+                }
             }
             Ok(seen)
         };
@@ -89,53 +91,17 @@ impl Seen {
     }
 
     /// Of one kernel after another of a row.
-    fn see<T: Scalar>(&mut self, builder: &RowBuilder<'_, T>) {
-        for piece in &builder.pieces {
-            self.errors[piece.panel] += piece.error;
-            if !piece.whole {
-                let weights = &builder.weights[piece.start..piece.end];
-                self.ragged[piece.panel] += weights.iter().map(|weight| weight.modulus()).sum::<f64>();
-            }
+    fn see<T: Scalar>(&mut self, panel: usize, on_panel: OnPanel, weights: &[T]) {
+        self.errors[panel] += on_panel.error;
+        self.depth = self.depth.max(on_panel.depth);
+        if on_panel.depth > 0 {
+            self.ragged[panel] += weights.iter().map(|weight| weight.modulus()).sum::<f64>();
         }
-        self.depth = self.depth.max(builder.depth);
     }
 
     fn and(mut self, other: &Self) -> Self {
         self.errors.iter_mut().zip(&other.errors).for_each(|(one, other)| *one = one.max(*other));
         self.ragged.iter_mut().zip(&other.ragged).for_each(|(one, other)| *one = one.max(*other));
         Self { depth: self.depth.max(other.depth), ..self }
-    }
-}
-
-/// The rule for K_ab(x(t), ·) on all panels.
-pub(crate) fn built<'e, T: Scalar>(
-    product: &Product<'e, '_, T>,
-    (a, b): (usize, usize),
-    t: f64,
-    panels: &Panels,
-    reference: &Reference,
-) -> Result<RowBuilder<'e, T>, EquationError> {
-    let mut builder = product.builder((a, b), t);
-    for panel in 0..panels.len() {
-        builder.panel(panel, panels.ends(panel), reference)?;
-    }
-    Ok(builder)
-}
-
-/// Σ_q κ_q u_j(y_q) for the basis polynomials u_j of all panels.
-fn contract<T: Scalar>(builder: &RowBuilder<'_, T>, panels: &Panels, reference: &Reference, row: &mut [T]) {
-    let p = reference.len();
-    let mut basis = vec![0.0; p];
-    for piece in &builder.pieces {
-        let row = &mut row[piece.panel * p..][..p];
-        let weights = &builder.weights[piece.start..piece.end];
-        if piece.whole {
-            row.iter_mut().zip(weights).for_each(|(entry, weight)| *entry += *weight);
-            continue;
-        }
-        for (t, weight) in builder.nodes[piece.start..piece.end].iter().zip(weights) {
-            reference.basis_at(panels.within(piece.panel, *t), &mut basis);
-            row.iter_mut().zip(&basis).for_each(|(entry, l)| *entry += *weight * *l);
-        }
     }
 }

@@ -1,9 +1,8 @@
 //! φ(x) = f(x) + Σ_q κ_q(x) φ_n(y_q): the solution as a function, by Nyström's interpolant (paper, (1.29)).
 
-use super::discrete::built;
 use super::panels::Panels;
 use crate::equation::{Function, Interval, Scalar};
-use crate::product::{COARSE, Change, Product};
+use crate::product::{COARSE, Change, POINTS, Product};
 use std::sync::Arc;
 
 /// The piecewise polynomials with these values at the panels' nodes, component after component.
@@ -75,18 +74,13 @@ fn transported<T: Scalar>(
 ) -> Option<T> {
     let t = phi.change.parameter(x);
     let mut sum = T::ZERO;
+    let mut weights = [T::ZERO; POINTS];
     for b in 0..phi.components() {
-        let row = built(product, (c, b), t, &phi.panels, &COARSE).ok()?;
-        for piece in &row.pieces {
-            let values = phi.panel(b, piece.panel);
-            let weights = &row.weights[piece.start..piece.end];
-            sum += if piece.whole {
-                weights.iter().zip(values).map(|(w, v)| *w * *v).sum::<T>()
-            } else {
-                let nodes = row.nodes[piece.start..piece.end].iter();
-                let at = |t: &f64| COARSE.interpolate(values, phi.panels.within(piece.panel, *t));
-                nodes.zip(weights).map(|(t, w)| *w * at(t)).sum::<T>()
-            };
+        let mut builder = product.builder((c, b), t);
+        for panel in 0..phi.panels.len() {
+            weights.fill(T::ZERO);
+            builder.panel(phi.panels.ends(panel), &COARSE, &mut weights).ok()?;
+            sum += weights.iter().zip(phi.panel(b, panel)).map(|(w, v)| *w * *v).sum::<T>();
         }
     }
     Some(sum)

@@ -60,12 +60,6 @@ impl Panels {
         (panel, ((t - low) - (high - t)) / (high - low))
     }
 
-    /// Where t is in a panel, from −1 to 1.
-    pub(crate) fn within(&self, panel: usize, t: f64) -> f64 {
-        let (low, high) = self.ends(panel);
-        ((t - low) - (high - t)) / (high - low)
-    }
-
     /// Each panel cut into `parts(panel)` equal ones.
     pub(crate) fn cut(&self, parts: impl Fn(usize) -> usize) -> Self {
         let mut edges = vec![self.edges[0]];
@@ -81,23 +75,14 @@ impl Panels {
 
 /// The values at the nodes of [`FINE`] of what is given at those of [`COARSE`], panel by panel.
 pub(crate) fn refined<T: Scalar>(values: &[T]) -> Vec<T> {
-    static MATRIX: LazyLock<Vec<f64>> = LazyLock::new(|| interpolation(&COARSE, &FINE));
+    static MATRIX: LazyLock<Vec<f64>> = LazyLock::new(|| COARSE.basis_at_all(&FINE.nodes));
     transferred(values, &MATRIX, COARSE.len())
 }
 
 /// The values at the nodes of [`COARSE`] of what is given at those of [`FINE`], panel by panel.
 pub(crate) fn coarsened<T: Scalar>(values: &[T]) -> Vec<T> {
-    static MATRIX: LazyLock<Vec<f64>> = LazyLock::new(|| interpolation(&FINE, &COARSE));
+    static MATRIX: LazyLock<Vec<f64>> = LazyLock::new(|| FINE.basis_at_all(&COARSE.nodes));
     transferred(values, &MATRIX, FINE.len())
-}
-
-/// Row by row, the basis polynomials of `from` at the nodes of `to`.
-fn interpolation(from: &Reference, to: &Reference) -> Vec<f64> {
-    let mut matrix = vec![0.0; from.len() * to.len()];
-    for (row, xi) in matrix.chunks_mut(from.len()).zip(&to.nodes) {
-        from.basis_at(*xi, row);
-    }
-    matrix
 }
 
 fn transferred<T: Scalar>(values: &[T], matrix: &[f64], n: usize) -> Vec<T> {

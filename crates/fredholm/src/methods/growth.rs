@@ -5,6 +5,7 @@ use super::{Approximation, Method, Setup, Yardstick};
 use super::{collocation, degenerate, galerkin, iterated, least_squares, nystrom};
 use crate::equation::{Answer, EquationError, Scalar, Status};
 use crate::product::Product;
+use crate::space::SpaceKind;
 use std::sync::Arc;
 
 /// The answer for this n.
@@ -32,7 +33,7 @@ pub(super) fn grow<'e, T: Scalar>(
     let mut best: Result<(Approximation<'e, T>, Judgement), EquationError> = Err(EquationError::Method(
         format!("{} has more unknowns from the start than it may have", setup.method),
     ));
-    while unknowns(setup, n) * product.equation().components() <= largest(setup.method) {
+    while unknowns(setup, n) * product.equation().components() <= largest(setup) {
         // A coarse discretisation may be singular where finer ones are not.
         match approximate(product, setup, n) {
             Ok(approximation) => {
@@ -122,13 +123,16 @@ fn unknowns(setup: &Setup, n: usize) -> usize {
 /// The first n, of elements or nodes, or of parts by as many as the rule takes at a time.
 const FIRST: usize = 4;
 
-/// Up to how many unknowns n grows by itself: where an answer takes some seconds. Galerkin's method computes integrals at 16
-/// points an element, and least squares keep them all.
-fn largest(method: Method) -> usize {
-    match method {
-        Method::LeastSquares => 300,
-        Method::Galerkin | Method::IteratedGalerkin => 600,
-        _ => 2100,
+/// Up to how many unknowns n grows by itself: where an answer takes some seconds. Global functions are evaluated at 16 points
+/// for each of them, and every one is everywhere; Galerkin's method has 16 points an element, and least squares keep them all.
+fn largest(setup: &Setup) -> usize {
+    match (setup.method, setup.space) {
+        (Method::Nystrom, _) => 2100,
+        (Method::LeastSquares, _) => 300,
+        (Method::Galerkin | Method::IteratedGalerkin, SpaceKind::Piecewise(_)) => 600,
+        (Method::Galerkin | Method::IteratedGalerkin, _) => 150,
+        (_, SpaceKind::Piecewise(_)) => 1100,
+        _ => 300,
     }
 }
 

@@ -5,7 +5,7 @@
 
 use super::degenerate::source_function;
 use super::integrals::{images, or_nan, sampled, transform, transform_resolved};
-use super::{Approximation, Integrals, Yardstick, operator_norm, spectral_radius};
+use super::{Approximation, Integrals, Yardstick, operator_norm, radius, spectral_radius};
 use crate::equation::{EquationError, Function, Scalar};
 use crate::product::Product;
 use crate::space::{Basis, Panels, Resolved, resolve};
@@ -87,7 +87,7 @@ impl<'e, T: Scalar> Series<'e, T> {
 
     /// Whether it converges whatever its source: the spectral radius is below 1, as far as the digits tell.
     pub fn converges(&self) -> bool {
-        self.spectral_radius < 1.0 - 1e-8
+        self.spectral_radius < 1.0 - 2.0 * radius::TOLERANCE
     }
 
     /// The terms f, A f, A² f, … at the nodes of the panels, component by component.

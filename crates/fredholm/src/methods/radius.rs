@@ -3,8 +3,8 @@
 use crate::equation::{Equation, EquationError, Scalar};
 use crate::spectrum::spectrum;
 
-/// What a spectral radius is known to, as a part of itself; whoever comes closer to 1 has ten thousands of terms to sum.
-const TOLERANCE: f64 = 1e-9;
+/// What a spectral radius is known to, as a part of itself; whoever comes closer to 1 has millions of terms to sum.
+pub(super) const TOLERANCE: f64 = 1e-6;
 
 /// The spectral radius of A; 0 where no eigenvalue can be told from 0.
 ///

@@ -27,10 +27,10 @@ const MORE_PANELS: usize = 256;
 /// Points of either family at which the residual is computed.
 const POINTS: usize = 48;
 
-/// The largest residual met is not the largest there is: sampled at 96 points it was seen to be above 0.8 of it.
+/// The largest residual met is not the largest there is.
 const SAMPLING: f64 = 1.5;
 
-/// Rounding of a residual and of the solution's evaluation, in units of ε times their sizes; 2 to 5 were seen.
+/// Rounding of a residual and of the solution's evaluation, as a part of their sizes: a handful of operations each.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// The error of an answer.

@@ -38,10 +38,11 @@ impl Error {
     }
 }
 
-/// The error of a solution on `mesh`.
+/// The error of a solution: its residual by the mesh's `finer` rule, at the nodes and between them.
 pub(super) fn error<T: Scalar>(
     found: &Nystrom<'_, '_, T>,
     finer: &Quadrature<[f64; 2]>,
+    mesh: &Mesh,
 ) -> Result<Error, EquationError> {
     let between = found.interpolate(&finer.nodes)?;
     let integrand = weighted(finer, &between);
@@ -52,8 +53,8 @@ pub(super) fn error<T: Scalar>(
     };
     let correction = found.solve(&residuals(&found.rule.nodes, &found.values)?);
 
-    let (probes, values) =
-        spread(&finer.nodes, PROBES).zip(spread(&between, PROBES)).unzip::<_, _, Vec<_>, Vec<_>>();
+    let probes: Vec<_> = mesh.middles().chain(spread(&mesh.between(), PROBES)).collect();
+    let values = found.interpolate(&probes)?;
     let residual = residuals(&probes, &values)?;
     let rest = integrals(found.equation, &probes, &found.rule.nodes, &weighted(&found.rule, &correction))?;
     let at_probes: Vec<T> = residual.iter().zip(rest).map(|(r, rest)| *r + rest).collect();

@@ -119,6 +119,17 @@ impl Mesh {
         })
     }
 
+    /// Points between the nodes and those of [`Self::finer`], of no phase that these have: the error of the trapezoid rule
+    /// with n angles goes like cos n(θ − θ₀), and at nodes of n and 2n it is always the same part of its maximum.
+    pub(super) fn between(&self) -> Vec<[f64; 2]> {
+        self.joined(|element| element.counts.map(|count| 2 * count + 2)).nodes
+    }
+
+    /// A point in the middle of each element.
+    pub(super) fn middles(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        self.0.iter().map(|element| element.piece.middle())
+    }
+
     fn joined(&self, counts: impl Fn(&Element) -> [usize; 2]) -> Quadrature<[f64; 2]> {
         let rules = self.0.iter().map(|element| element.piece.rule(counts(element)));
         let (nodes, weights): (Vec<_>, Vec<_>) = rules.map(|rule| (rule.nodes, rule.weights)).unzip();

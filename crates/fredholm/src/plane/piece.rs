@@ -54,6 +54,15 @@ impl Piece {
         }
     }
 
+    /// A point in the middle: of a disk the one that its nodes are farthest from, for its size.
+    pub(super) fn middle(&self) -> [f64; 2] {
+        match *self {
+            Self::Rectangle { x, y } => [0.5 * (x[0] + x[1]), 0.5 * (y[0] + y[1])],
+            Self::Triangle([a, b, c]) => [0, 1].map(|k| (a[k] + b[k] + c[k]) / 3.0),
+            Self::Ring { centre, .. } => centre,
+        }
+    }
+
     /// Its parts: halves of a rectangle along either direction or both, four triangles, or two rings.
     pub(super) fn split(&self, along: [bool; 2]) -> Vec<Self> {
         match *self {

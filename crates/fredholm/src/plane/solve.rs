@@ -98,7 +98,7 @@ fn attempt<'e, 'a, T: Scalar>(
 ) -> Result<Found<'e, 'a, T>, EquationError> {
     let nystrom = Nystrom::new(equation, mesh.rule())?;
     let finer = mesh.finer();
-    let mut error = error(&nystrom, &finer)?;
+    let mut error = error(&nystrom, &finer, mesh)?;
     let resolved = is_resolved(&nystrom, &finer)?;
     let (mut verdict, mut told) = (None, None);
     if resolved {

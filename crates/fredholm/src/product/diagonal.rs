@@ -1,19 +1,19 @@
 //! K(x, x ± u) for u → 0: what a kernel does on its diagonal, found by looking at it.
 
 use super::change::Change;
-use super::reference::COARSE;
+use super::reference::{COARSE, POINTS, SINGULAR};
 use super::row::Sampler;
 use crate::equation::{Class, EquationError, LineKernel, Scalar};
 
 /// How the rule must treat the diagonal.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub(crate) enum Diagonal {
     /// Like any other place.
     Smooth,
     /// As the end of one interval and the beginning of another, K being smooth on either side.
     Broken,
-    /// As a singularity, with the substitution u = s^power.
-    Singular { power: i32 },
+    /// As a singularity.
+    Singular(Core),
 }
 
 impl Diagonal {
@@ -22,12 +22,47 @@ impl Diagonal {
         match class {
             Class::Smooth | Class::Periodic | Class::Peaked => Self::Smooth,
             Class::Kink | Class::Jump => Self::Broken,
-            Class::Logarithmic => Self::Singular { power: 5 },
+            Class::Logarithmic => Self::Singular(Core::new(5)),
             // ∫ u^β du becomes ∫ s^(power (1 + β) − 1) ds: at least the fourth power, which 40 nodes do to rounding.
             Class::Algebraic { exponent } => {
-                Self::Singular { power: (5.0 / (1.0 + exponent)).ceil().clamp(5.0, 100.0) as i32 }
+                Self::Singular(Core::new((5.0 / (1.0 + exponent)).ceil().clamp(5.0, 100.0) as i32))
             }
         }
+    }
+}
+
+/// The innermost piece at a singularity: u = s^power on (0, 1), with the nodes of [`SINGULAR`] for s.
+#[derive(Clone, Debug)]
+pub(crate) struct Core {
+    pub(crate) power: i32,
+    /// Row by row, the basis polynomials of [`COARSE`] in u at the nodes in s.
+    basis: Vec<f64>,
+}
+
+impl Core {
+    fn new(power: i32) -> Self {
+        let u: Vec<f64> =
+            SINGULAR.nodes.iter().map(|xi| 2.0 * (0.5 * (1.0 + xi)).powi(power) - 1.0).collect();
+        Self { power, basis: COARSE.basis_at_all(&u) }
+    }
+
+    /// How much smaller than the panel it must be, in halvings: g is a polynomial in u; in s its degree is `power` times
+    /// as high, unless the core is so short that g is all but a line.
+    pub(crate) fn levels(&self) -> u32 {
+        2 + (self.power as u32).ilog2().saturating_sub(2)
+    }
+
+    /// Σ_q w_q K_q g(u_q) as weights of a g given at the nodes of [`COARSE`]; u runs to the left if `mirrored`.
+    pub(crate) fn gather<T: Scalar>(&self, kernel: &[T], mirrored: bool) -> [T; POINTS] {
+        let mut weights = [T::ZERO; POINTS];
+        for ((k, w), basis) in kernel.iter().zip(&SINGULAR.weights).zip(self.basis.chunks_exact(POINTS)) {
+            let term = *k * *w;
+            weights.iter_mut().zip(basis).for_each(|(weight, l)| *weight += term * *l);
+        }
+        if mirrored {
+            weights.reverse();
+        }
+        weights
     }
 }
 

@@ -11,8 +11,8 @@ mod row;
 
 pub(crate) use change::Change;
 pub(crate) use diagonal::Diagonal;
-pub(crate) use reference::{COARSE, FINE, Reference};
-pub(crate) use row::RowBuilder;
+pub(crate) use reference::{COARSE, FINE, POINTS, Reference};
+pub(crate) use row::{OnPanel, RowBuilder};
 
 use crate::equation::{Class, Equation, EquationError, Scalar};
 
@@ -22,6 +22,8 @@ pub struct Product<'e, 'a, T> {
     equation: &'e Equation<'a, T>,
     change: Change,
     classes: Vec<Class>,
+    /// What the classes ask for.
+    diagonals: Vec<Diagonal>,
 }
 
 /// The nodes y_q and weights κ_q of the rule for one x; the kernel is in the weights.
@@ -58,19 +60,24 @@ impl<'e, 'a, T: Scalar> Product<'e, 'a, T> {
             Some(class) => Ok(class),
             None => diagonal::class(equation.kernel(k / m, k % m), change),
         };
-        Ok(Self { equation, change, classes: (0..m * m).map(found).collect::<Result<_, _>>()? })
+        Ok(Self::of_classes(equation, change, (0..m * m).map(found).collect::<Result<_, _>>()?))
+    }
+
+    fn of_classes(equation: &'e Equation<'a, T>, change: Change, classes: Vec<Class>) -> Self {
+        let diagonals = classes.iter().map(|class| Diagonal::of(*class)).collect();
+        Self { equation, change, classes, diagonals }
     }
 
     /// The same classes, in another variable.
     pub(crate) fn changed(&self, change: Change) -> Self {
-        Self { equation: self.equation, change, classes: self.classes.clone() }
+        Self::of_classes(self.equation, change, self.classes.clone())
     }
 
     /// The rule for the adjoint of the equation, in the same variable.
     pub(crate) fn adjoint<'f, 'b>(&self, adjoint: &'f Equation<'b, T>) -> Product<'f, 'b, T> {
         let m = adjoint.components();
         let classes = (0..m * m).map(|k| self.class(k % m, k / m)).collect();
-        Product { equation: adjoint, change: self.change, classes }
+        Product::of_classes(adjoint, self.change, classes)
     }
 
     /// The equation.
@@ -93,22 +100,24 @@ impl<'e, 'a, T: Scalar> Product<'e, 'a, T> {
     }
 
     /// The rule for K_ab(x, ·), good to rounding for every g that is a polynomial of degree ≤ 15 from one of the
-    /// `breaks` to the next; they ascend from one end of the interval to the other.
+    /// `breaks` to the next; they ascend from one end of the interval to the other. Its nodes are the same for every x.
     pub fn row(&self, (a, b): (usize, usize), x: f64, breaks: &[f64]) -> Result<Row<T>, EquationError> {
         let mut builder = self.builder((a, b), self.change.parameter(x));
-        for (panel, ends) in breaks.windows(2).enumerate() {
+        let mut row = Row { nodes: Vec::new(), weights: Vec::new(), error: 0.0 };
+        for ends in breaks.windows(2) {
             let (t, next) = (self.change.parameter(ends[0]), self.change.parameter(ends[1]));
-            builder.panel(panel, (t.min(next), t.max(next)), &COARSE)?;
+            let (low, high) = (t.min(next), t.max(next));
+            let nodes = COARSE.nodes.iter().map(|xi| 0.5 * ((high + low) + (high - low) * xi));
+            row.nodes.extend(nodes.map(|t| self.change.point(t)));
+            let start = row.weights.len();
+            row.weights.resize(row.nodes.len(), T::ZERO);
+            row.error += builder.panel((low, high), &COARSE, &mut row.weights[start..])?.error;
         }
-        let nodes = builder.nodes.iter().map(|t| self.change.point(*t)).collect();
-        let error = builder.pieces.iter().map(|piece| piece.error).sum();
-        Ok(Row { nodes, weights: builder.weights, error })
+        Ok(row)
     }
 
-    pub(crate) fn builder(&self, (a, b): (usize, usize), t: f64) -> RowBuilder<'e, T>
-    where
-        'a: 'e,
-    {
-        RowBuilder::new(self.equation.kernel(a, b), self.change, Diagonal::of(self.class(a, b)), t)
+    pub(crate) fn builder(&self, (a, b): (usize, usize), t: f64) -> RowBuilder<'_, T> {
+        let diagonal = &self.diagonals[a * self.equation.components() + b];
+        RowBuilder::new(self.equation.kernel(a, b), self.change, diagonal, t)
     }
 }

@@ -14,16 +14,24 @@ pub(crate) struct Reference {
     barycentric: Vec<f64>,
     /// Row k: the functional g ↦ coefficient n − 1 − k of g's Legendre series.
     tail: [Vec<f64>; 3],
+    /// Row by row, the basis polynomials at the nodes of [`COARSE`] of the left half and of the right one.
+    halves: [Vec<f64>; 2],
 }
 
+/// The nodes of a panel, where the equation is solved.
+pub(crate) const POINTS: usize = 16;
+
 /// Nodes of a panel, where the equation is solved.
-pub(crate) static COARSE: LazyLock<Reference> = LazyLock::new(|| Reference::new(16));
+pub(crate) static COARSE: LazyLock<Reference> = LazyLock::new(|| Reference::new(POINTS));
 
 /// Nodes of a panel, where the solution is put to the test: none of them is a node of [`COARSE`].
 pub(crate) static FINE: LazyLock<Reference> = LazyLock::new(|| Reference::new(24));
 
 /// Nodes towards a singularity.
-pub(crate) static SINGULAR: LazyLock<Reference> = LazyLock::new(|| Reference::new(40));
+pub(crate) static SINGULAR: LazyLock<Reference> = LazyLock::new(|| Reference::new(MOST));
+
+/// Nodes of the largest reference.
+const MOST: usize = 40;
 
 impl Reference {
     fn new(n: usize) -> Self {
@@ -37,7 +45,30 @@ impl Reference {
             rule.nodes.iter().zip(&rule.weights).map(term).collect()
         };
         let tail = [functional(n - 1), functional(n - 2), functional(n - 3)];
-        Self { nodes: rule.nodes, weights: rule.weights, barycentric, tail }
+        let halves = [Vec::new(), Vec::new()];
+        let mut reference = Self { nodes: rule.nodes, weights: rule.weights, barycentric, tail, halves };
+        reference.halves = [-0.5, 0.5].map(|middle| {
+            let nodes = gauss_legendre(POINTS, middle - 0.5, middle + 0.5).nodes;
+            reference.basis_at_all(&nodes)
+        });
+        reference
+    }
+
+    /// Row by row, the basis polynomials at these ξ.
+    pub(crate) fn basis_at_all(&self, xi: &[f64]) -> Vec<f64> {
+        let mut matrix = vec![0.0; xi.len() * self.len()];
+        let rows = matrix.chunks_exact_mut(self.len());
+        rows.zip(xi).for_each(|(row, xi)| self.spread(*xi, 1.0, row));
+        matrix
+    }
+
+    /// Adds to `row` what weights at the nodes of [`COARSE`] of the two halves amount to for a polynomial given here.
+    pub(crate) fn gather<T: Scalar>(&self, left: &[T; POINTS], right: &[T; POINTS], row: &mut [T]) {
+        for (weights, matrix) in [left, right].into_iter().zip(&self.halves) {
+            for (weight, basis) in weights.iter().zip(matrix.chunks_exact(self.len())) {
+                row.iter_mut().zip(basis).for_each(|(entry, l)| *entry += *weight * *l);
+            }
+        }
     }
 
     /// The number of nodes.
@@ -53,20 +84,19 @@ impl Reference {
         self.tail.iter().map(coefficient).fold(0.0, f64::max)
     }
 
-    /// The values at ξ of the polynomials that are 1 at one node and 0 at the others.
-    pub(crate) fn basis_at(&self, xi: f64, basis: &mut [f64]) {
-        let mut sum = 0.0;
-        for ((value, node), weight) in basis.iter_mut().zip(&self.nodes).zip(&self.barycentric) {
-            *value = weight / (xi - node);
-            sum += *value;
-        }
+    /// Adds to `row` what a weight at ξ amounts to for a polynomial given at the nodes: weight · u_j(ξ).
+    pub(crate) fn spread<T: Scalar>(&self, xi: f64, weight: T, row: &mut [T]) {
+        let mut ratios = [0.0; MOST];
+        let ratios = &mut ratios[..self.len()];
+        let terms = self.nodes.iter().zip(&self.barycentric);
+        ratios.iter_mut().zip(terms).for_each(|(ratio, (node, weight))| *ratio = weight / (xi - node));
+        let sum: f64 = ratios.iter().sum();
         if sum.is_finite() {
-            basis.iter_mut().for_each(|value| *value /= sum);
-        } else {
-            // ξ is a node, or closer to one than doubles can tell.
-            basis.iter_mut().zip(&self.nodes).for_each(|(value, node)| {
-                *value = if (xi - node).abs() < f64::MIN_POSITIVE.sqrt() { 1.0 } else { 0.0 };
-            });
+            let factor = weight * (1.0 / sum);
+            row.iter_mut().zip(ratios).for_each(|(entry, ratio)| *entry += factor * *ratio);
+        } else if let Some(j) = self.nodes.iter().position(|node| *node == xi) {
+            // 1/0: ξ is a node.
+            row[j] += weight;
         }
     }
 
@@ -103,11 +133,9 @@ mod tests {
     fn polynomials_are_interpolated_and_their_last_coefficients_seen() {
         let p = |x: f64| x.powi(15) - 3.0 * x.powi(7) + 0.5;
         let values: Vec<f64> = COARSE.nodes.iter().map(|x| p(*x)).collect();
-        let mut basis = vec![0.0; COARSE.len()];
         for xi in [-1.0, -0.3, COARSE.nodes[3], 0.77, 1.0] {
             assert!((COARSE.interpolate(&values, xi) - p(xi)).abs() < 1e-14);
-            COARSE.basis_at(xi, &mut basis);
-            let sum: f64 = basis.iter().zip(&values).map(|(l, v)| l * v).sum();
+            let sum: f64 = COARSE.basis_at_all(&[xi]).iter().zip(&values).map(|(l, v)| l * v).sum();
             assert!((sum - p(xi)).abs() < 1e-14);
         }
         // 3 P₁₄ + P₀.

@@ -1,8 +1,9 @@
-//! One row of the product rule: pieces of the interval on which K(x, ·) is resolved.
+//! κ_j(x) = ∫ K(x, y) u_j(y) dy on a panel: the interval is cut until K(x, ·) is resolved on every piece, and what the
+//! pieces find is gathered at the panel's nodes, by the transposed of the interpolation from there.
 
 use super::change::Change;
-use super::diagonal::Diagonal;
-use super::reference::{COARSE, Reference, SINGULAR};
+use super::diagonal::{Core, Diagonal};
+use super::reference::{COARSE, POINTS, Reference, SINGULAR};
 use crate::equation::{EquationError, LineKernel, Scalar};
 
 /// What is left out of K on a piece may weigh this much, of ∫ K g with |g| ≤ 1: I − A is of size 1.
@@ -60,99 +61,101 @@ impl<'k, T: Scalar> Sampler<'k, T> {
     }
 }
 
-/// A piece of a panel with its nodes: `nodes[start..end]` of the row.
+/// What was found on a panel besides its weights.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Piece {
-    /// The panel it is of.
-    pub(crate) panel: usize,
-    /// Where its nodes begin.
-    pub(crate) start: usize,
-    /// Where its nodes end.
-    pub(crate) end: usize,
-    /// Whether it is the whole panel, with the panel's own nodes.
-    pub(crate) whole: bool,
-    /// What was left out of it, of ∫ K g with |g| ≤ 1.
+pub(crate) struct OnPanel {
+    /// What was left out, of ∫ K g with |g| ≤ 1.
     pub(crate) error: f64,
+    /// How often the panel was halved; 0 where its own nodes resolve K.
+    pub(crate) depth: u32,
 }
 
-/// Builds a row piece by piece; all places are τ, seen from t.
+/// Builds a row panel by panel; all places are τ, seen from t.
 pub(crate) struct RowBuilder<'k, T> {
     sampler: Sampler<'k, T>,
-    diagonal: Diagonal,
-    /// The nodes, as t + τ.
-    pub(crate) nodes: Vec<f64>,
-    /// The weights, with the kernel in them.
-    pub(crate) weights: Vec<T>,
-    /// The pieces, in the order of the panels.
-    pub(crate) pieces: Vec<Piece>,
-    /// The most halvings that a panel without a singularity needed.
-    pub(crate) depth: u32,
+    diagonal: &'k Diagonal,
+    depth: u32,
     tau: Vec<f64>,
     values: Vec<T>,
 }
 
+/// ∫ K g over a piece, for a g given at the nodes of [`COARSE`] there.
+struct Part<T> {
+    weights: [T; POINTS],
+    error: f64,
+}
+
 impl<'k, T: Scalar> RowBuilder<'k, T> {
-    pub(crate) fn new(kernel: &'k dyn LineKernel<T>, change: Change, diagonal: Diagonal, t: f64) -> Self {
-        Self {
-            sampler: Sampler::new(kernel, change, t),
-            diagonal,
-            nodes: Vec::new(),
-            weights: Vec::new(),
-            pieces: Vec::new(),
-            depth: 0,
-            tau: Vec::new(),
-            values: Vec::new(),
-        }
+    pub(crate) fn new(kernel: &'k dyn LineKernel<T>, change: Change, diagonal: &'k Diagonal, t: f64) -> Self {
+        let sampler = Sampler::new(kernel, change, t);
+        Self { sampler, diagonal, depth: 0, tau: Vec::new(), values: Vec::new() }
     }
 
-    /// Adds the panel from `low` to `high`, whose own nodes are those of `own`.
+    /// Adds to `row` the weights of the panel from `low` to `high` at the nodes of `own`.
     pub(crate) fn panel(
         &mut self,
-        panel: usize,
         (low, high): (f64, f64),
         own: &Reference,
-    ) -> Result<(), EquationError> {
+        row: &mut [T],
+    ) -> Result<OnPanel, EquationError> {
         let t = self.sampler.t;
-        let (from, to) = (low - t, high - t);
-        match self.diagonal {
-            Diagonal::Smooth => self.smooth(panel, (from, to), own),
-            _ if from > 0.0 || to < 0.0 => self.smooth(panel, (from, to), own),
-            Diagonal::Broken => {
-                self.one_sided(panel, from)?;
-                self.one_sided(panel, to)
-            }
-            Diagonal::Singular { power } => {
-                self.towards_singularity(panel, from, power)?;
-                self.towards_singularity(panel, to, power)
-            }
-        }
+        let ends = (low - t, high - t);
+        self.depth = 0;
+        let error = match self.diagonal {
+            Diagonal::Smooth => self.smooth(ends, own, row)?,
+            _ if ends.0 > 0.0 || ends.1 < 0.0 => self.smooth(ends, own, row)?,
+            _ => self.divided(ends, own, row)?,
+        };
+        Ok(OnPanel { error, depth: self.depth })
     }
 
     /// A panel without a break: as a whole if that resolves K, in halves otherwise.
-    fn smooth(&mut self, panel: usize, (from, to): (f64, f64), own: &Reference) -> Result<(), EquationError> {
+    fn smooth(
+        &mut self,
+        (from, to): (f64, f64),
+        own: &Reference,
+        row: &mut [T],
+    ) -> Result<f64, EquationError> {
+        let length = to - from;
         let tail = self.sample(from, to, own)?;
-        if self.is_resolved(tail, to - from) {
-            self.keep(panel, to - from, own, true);
-            return Ok(());
+        if self.is_resolved(tail, length) {
+            let weights = self.values.iter().zip(&own.weights);
+            row.iter_mut().zip(weights).for_each(|(entry, (k, w))| *entry += *k * (0.5 * length * w));
+            return Ok(0.0);
         }
         let middle = 0.5 * (from + to);
-        self.halves(panel, (from, middle), f64::INFINITY, 1)?;
-        self.halves(panel, (middle, to), f64::INFINITY, 1)
+        let left = self.halves((from, middle), f64::INFINITY, 1)?;
+        let right = self.halves((middle, to), f64::INFINITY, 1)?;
+        own.gather(&left.weights, &right.weights, row);
+        Ok(left.error + right.error)
     }
 
-    /// From the diagonal to τ = `end`, K being smooth on this side of it.
-    fn one_sided(&mut self, panel: usize, end: f64) -> Result<(), EquationError> {
-        if end == 0.0 { Ok(()) } else { self.halves(panel, ordered(0.0, end), f64::INFINITY, 0) }
+    /// A panel with the diagonal in it or at its end, on one side and then the other.
+    fn divided(
+        &mut self,
+        (from, to): (f64, f64),
+        own: &Reference,
+        row: &mut [T],
+    ) -> Result<f64, EquationError> {
+        let mut error = 0.0;
+        for end in [from, to].into_iter().filter(|end| *end != 0.0) {
+            self.depth = self.depth.max(1);
+            let part = match self.diagonal {
+                Diagonal::Singular(core) => self.singular(end, core, 0)?,
+                _ => self.halves(ordered(0.0, end), f64::INFINITY, 1)?,
+            };
+            let (near, far) = ordered(0.0, end);
+            for (xi, weight) in COARSE.nodes.iter().zip(&part.weights) {
+                let tau = 0.5 * ((far + near) + (far - near) * xi);
+                own.spread(((tau - from) - (to - tau)) / (to - from), *weight, row);
+            }
+            error += part.error;
+        }
+        Ok(error)
     }
 
     /// A part of a panel, halved until K is resolved on each piece.
-    fn halves(
-        &mut self,
-        panel: usize,
-        (from, to): (f64, f64),
-        above: f64,
-        depth: u32,
-    ) -> Result<(), EquationError> {
+    fn halves(&mut self, (from, to): (f64, f64), above: f64, depth: u32) -> Result<Part<T>, EquationError> {
         let length = to - from;
         let tail = self.sample(from, to, &COARSE)?;
         self.depth = self.depth.max(depth);
@@ -160,43 +163,36 @@ impl<'k, T: Scalar> RowBuilder<'k, T> {
         // Where halving does not help, it is noise that is left.
         let noise = tail > 0.7 * above && tail <= 1e-12 * self.largest();
         if resolved || noise || depth >= DEPTH {
-            self.keep(panel, length, &COARSE, false);
-            self.left_out(match (resolved, noise) {
+            let mut weights = [T::ZERO; POINTS];
+            let terms = self.values.iter().zip(&COARSE.weights);
+            weights.iter_mut().zip(terms).for_each(|(weight, (k, w))| *weight = *k * (0.5 * length * w));
+            let error = match (resolved, noise) {
                 (true, _) => 0.0,
                 (false, true) => length * tail,
                 (false, false) => length * self.largest(),
-            });
-            return Ok(());
+            };
+            return Ok(Part { weights, error });
         }
         let middle = 0.5 * (from + to);
-        self.halves(panel, (from, middle), tail, depth + 1)?;
-        self.halves(panel, (middle, to), tail, depth + 1)
+        let left = self.halves((from, middle), tail, depth + 1)?;
+        let right = self.halves((middle, to), tail, depth + 1)?;
+        Ok(joined(&left, &right))
     }
 
     /// From a singularity on the diagonal to τ = `end`: dyadic pieces, and τ = ±core · s^power for the last one, which
     /// makes of |τ|^(−α) dτ and of ln |τ| dτ something smooth in s.
-    fn towards_singularity(&mut self, panel: usize, end: f64, power: i32) -> Result<(), EquationError> {
-        if end == 0.0 {
-            return Ok(());
-        }
-        // g is a polynomial in τ; in s its degree is `power` times as high, unless the core is small beside the panel.
-        let levels = 2 + (power as u32).ilog2().saturating_sub(2);
-        let mut core = end;
-        for depth in 0..DEPTH {
-            if depth >= levels {
-                let tail = self.sample_core(core, power)?;
-                let resolved = self.is_resolved(tail, 1.0);
-                if resolved || depth + 1 == DEPTH {
-                    let rounding = self.rounding_of_core();
-                    self.keep_core(panel);
-                    self.left_out(rounding + if resolved { 0.0 } else { tail });
-                    return Ok(());
-                }
+    fn singular(&mut self, end: f64, core: &Core, depth: u32) -> Result<Part<T>, EquationError> {
+        if depth >= core.levels() {
+            let tail = self.sample_core(end, core.power)?;
+            let resolved = self.is_resolved(tail, 1.0);
+            if resolved || depth >= DEPTH {
+                let error = self.rounding_of_core(core.power) + if resolved { 0.0 } else { tail };
+                return Ok(Part { weights: core.gather(&self.values, end < 0.0), error });
             }
-            self.halves(panel, ordered(0.5 * core, core), f64::INFINITY, 0)?;
-            core *= 0.5;
         }
-        Ok(())
+        let far = self.halves(ordered(0.5 * end, end), f64::INFINITY, 1)?;
+        let near = self.singular(0.5 * end, core, depth + 1)?;
+        Ok(if end > 0.0 { joined(&near, &far) } else { joined(&far, &near) })
     }
 
     /// Samples K at the rule's nodes; what is returned is large where they do not resolve it.
@@ -236,15 +232,12 @@ impl<'k, T: Scalar> RowBuilder<'k, T> {
     }
 
     /// What a kernel that is not told y − x makes of the rounding of y, which is x + τ: the closer to a singularity the more.
-    fn rounding_of_core(&self) -> f64 {
+    fn rounding_of_core(&self, power: i32) -> f64 {
         if self.sampler.kernel.takes_offset() {
             return 0.0;
         }
         let grain = 0.5 * f64::EPSILON * self.sampler.x.abs();
-        let steepest = match self.diagonal {
-            Diagonal::Singular { power } => 1.0 - 5.0 / f64::from(power),
-            _ => 0.0,
-        };
+        let steepest = 1.0 - 5.0 / f64::from(power);
         let terms = self.values.iter().zip(&SINGULAR.weights).zip(&self.sampler.offset);
         terms
             .map(|((k, w), offset)| {
@@ -262,30 +255,13 @@ impl<'k, T: Scalar> RowBuilder<'k, T> {
     fn is_resolved(&self, tail: f64, length: f64) -> bool {
         tail * length <= NEGLIGIBLE || tail <= ROUNDING * self.largest()
     }
+}
 
-    fn keep(&mut self, panel: usize, length: f64, rule: &Reference, whole: bool) {
-        self.weights.extend(self.values.iter().zip(&rule.weights).map(|(k, w)| *k * (0.5 * length * w)));
-        self.keep_nodes(panel, whole);
-    }
-
-    fn keep_core(&mut self, panel: usize) {
-        self.weights.extend(self.values.iter().zip(&SINGULAR.weights).map(|(k, w)| *k * *w));
-        self.keep_nodes(panel, false);
-    }
-
-    fn keep_nodes(&mut self, panel: usize, whole: bool) {
-        let start = self.nodes.len();
-        let t = self.sampler.t;
-        self.nodes.extend(self.tau.iter().map(|tau| t + tau));
-        self.pieces.push(Piece { panel, start, end: self.nodes.len(), whole, error: 0.0 });
-    }
-
-    /// Says what the newest piece leaves out.
-    fn left_out(&mut self, error: f64) {
-        if let Some(piece) = self.pieces.last_mut() {
-            piece.error = error;
-        }
-    }
+/// Two halves as one.
+fn joined<T: Scalar>(left: &Part<T>, right: &Part<T>) -> Part<T> {
+    let mut weights = [T::ZERO; POINTS];
+    COARSE.gather(&left.weights, &right.weights, &mut weights);
+    Part { weights, error: left.error + right.error }
 }
 
 fn ordered(a: f64, b: f64) -> (f64, f64) {

@@ -3,11 +3,11 @@
 use super::Basis;
 use super::piecewise::piece;
 use crate::equation::{Function, Scalar};
-use crate::product::COARSE;
+use crate::product::{COARSE, POINTS};
 use rayon::prelude::*;
 
 /// Nodes of a panel: polynomials of degree 15, which is what [`crate::product::Product::row`] integrates to rounding.
-pub(crate) const PER_PANEL: usize = 16;
+pub(crate) const PER_PANEL: usize = POINTS;
 
 /// Polynomials of degree 15 on each panel, which owns its coefficients, with Gauss's nodes.
 #[derive(Clone, Debug)]
@@ -39,8 +39,9 @@ impl Basis for Panels {
     fn values(&self, x: f64, values: &mut Vec<f64>) -> usize {
         let panel = piece(&self.breaks, x);
         let (a, b) = (self.breaks[panel], self.breaks[panel + 1]);
+        values.clear();
         values.resize(PER_PANEL, 0.0);
-        COARSE.basis_at(((x - a) - (b - x)) / (b - a), values);
+        COARSE.spread(((x - a) - (b - x)) / (b - a), 1.0, values);
         panel * PER_PANEL
     }
 }
