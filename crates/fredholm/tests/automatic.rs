@@ -309,3 +309,24 @@ fn outside_of_the_interval_there_is_no_solution() {
     let answer = solve(&equation, &to(1e-10)).unwrap();
     assert!(answer.at(&1.5).is_nan() && answer.at(&f64::NAN).is_nan());
 }
+
+/// The nodes gather towards the ends until doubles do, but the source is not asked for its value there.
+#[test]
+fn a_source_that_is_no_number_at_the_ends_is_no_obstacle() {
+    let source = |x: f64| if x == 0.0 || x == 1.0 { f64::NAN } else { x };
+    let kernel = |x: f64, y: f64| (x - y).abs().ln();
+    let equation = Equation::new(Interval::new(0.0, 1.0).unwrap(), kernel, source);
+    let answer = solve(&equation, &to(1e-11)).unwrap();
+    assert!(answer.status == Status::Converged && answer.at(&1.0).is_finite());
+}
+
+#[test]
+fn where_the_source_is_infinite_so_is_the_solution() {
+    // φ = 1/x + (3/2) x; and x ln x at 0, which is 0 · (−∞), has a limit.
+    let unit = Interval::new(0.0, 1.0).unwrap();
+    let pole = Equation::new(unit, |x: f64, y: f64| x * y, |x: f64| 1.0 / x);
+    let answer = solve(&pole, &to(1e-10)).unwrap();
+    assert!(answer.at(&0.0).is_infinite() && (answer.at(&0.5) - 2.75).abs() < 1e-10);
+    let limit = Equation::new(unit, |x: f64, y: f64| x * y, |x: f64| x * x.ln() + x / 9.0);
+    assert!(solve(&limit, &to(1e-10)).unwrap().at(&0.0).abs() < 1e-8);
+}

@@ -44,6 +44,10 @@ impl<T: FormulaValue> LineKernel<T> for FormulaKernel<'_> {
     fn row(&self, x: f64, y: &[f64], offset: &[f64], row: &mut [T]) {
         T::fill(self.0, &[Column::Same(x), Column::Each(y), Column::Each(offset)], row);
     }
+
+    fn takes_offset(&self) -> bool {
+        self.0.depends_on(2)
+    }
 }
 
 impl<T: FormulaValue> PlaneKernel<T> for FormulaKernel<'_> {

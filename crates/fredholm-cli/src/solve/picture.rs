@@ -28,8 +28,11 @@ const SQUARES: f64 = 160.0;
 /// What is shown of an infinite interval, when nobody says.
 const WINDOW: f64 = 10.0;
 
-/// The part of the interval that is drawn: from the first to the last of the points that were asked for.
+/// The part of the interval that is drawn: all of a finite one; of an infinite one what the points asked for span.
 pub fn window(interval: Interval, asked: Option<&[f64]>) -> [f64; 2] {
+    if interval.is_finite() {
+        return [interval.a(), interval.b()];
+    }
     if let Some(points) = asked {
         let least = points.iter().copied().fold(f64::INFINITY, f64::min);
         let most = points.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -38,7 +41,6 @@ pub fn window(interval: Interval, asked: Option<&[f64]>) -> [f64; 2] {
         }
     }
     match (interval.a(), interval.b()) {
-        (a, b) if a.is_finite() && b.is_finite() => [a, b],
         (a, _) if a.is_finite() => [a, a + WINDOW],
         (_, b) if b.is_finite() => [b - WINDOW, b],
         _ => [-WINDOW, WINDOW],

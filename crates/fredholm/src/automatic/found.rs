@@ -45,24 +45,37 @@ impl<T: Scalar> PanelFunction<T> {
     }
 }
 
-/// Nyström's interpolant of φ_n; where its terms are not finite, as at an end where f is not defined, φ_n itself.
+/// Nyström's interpolant of φ_n. Outside the interval it is NaN.
 pub(crate) fn interpolant<'e, 'a: 'e, T: Scalar>(
     product: Arc<Product<'e, 'a, T>>,
     phi: PanelFunction<T>,
 ) -> Function<'e, f64, T> {
     let components = phi.components();
     let at = move |c: usize, x: &f64| {
-        let polynomial = phi.at(c, *x);
-        if !polynomial.finite() || !x.is_finite() {
-            return polynomial;
+        let interval = phi.interval;
+        if !(interval.a() <= *x && *x <= interval.b()) {
+            return T::from(f64::NAN);
         }
-        let value = product.equation().source(c, *x);
-        transported(&product, &phi, c, *x)
-            .map(|sum| value + sum)
-            .filter(|sum| sum.finite())
-            .unwrap_or(polynomial)
+        if x.is_infinite() {
+            return phi.at(c, *x);
+        }
+        let source = source_or_limit(&product, c, *x);
+        let sum = transported(&product, &phi, c, *x);
+        sum.map_or(T::from(f64::NAN), |sum| source + sum)
     };
     Function::new(components, at)
+}
+
+/// f_c(x); where that is 0/0 or 0 · ln 0, the f_c of the double next to x, inwards.
+fn source_or_limit<T: Scalar>(product: &Product<'_, '_, T>, c: usize, x: f64) -> T {
+    let value = product.equation().source(c, x);
+    let (re, im) = value.parts();
+    if re.is_nan() || im.is_nan() {
+        let inwards = if x < product.equation().interval().b() { x.next_up() } else { x.next_down() };
+        product.equation().source(c, inwards)
+    } else {
+        value
+    }
 }
 
 /// Σ_b Σ_q κ_q(x) φ_b(y_q).

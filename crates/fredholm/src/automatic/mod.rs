@@ -150,7 +150,10 @@ fn answer<'e, 'a: 'e, T: Scalar>(
     });
     Answer {
         status,
-        method: format!("automatic: collocation on {} panels of degree 15, iterated", panels.len()),
+        method: match panels.len() {
+            1 => "automatic: collocation by one polynomial of degree 15, iterated".to_owned(),
+            count => format!("automatic: collocation on {count} panels of degree 15, iterated"),
+        },
         class: Some(class(product, depth)),
         unknowns,
         error_estimate: if status == Status::NoSolution { f64::INFINITY } else { error },

@@ -18,16 +18,16 @@ pub trait LineKernel<T>: Sync + Send {
     /// `row[j]` = K(x, y_j), where `offset[j]` is y_j − x, exact also where the subtraction would cancel.
     fn row(&self, x: f64, y: &[f64], offset: &[f64], row: &mut [T]);
 
-    /// Whether `offset` is made use of. Otherwise the error of a singular kernel's integral has the rounding of y in it.
+    /// Whether `offset` is made use of. Otherwise y is never x itself where `offset` is not 0, but a double beside it, and
+    /// the error of a singular kernel's integral has the rounding of y in it.
     fn takes_offset(&self) -> bool {
         false
     }
 }
 
 impl<T, K: Fn(f64, f64) -> T + Sync + Send> LineKernel<T> for K {
-    fn row(&self, x: f64, y: &[f64], offset: &[f64], row: &mut [T]) {
-        let points = y.iter().zip(offset);
-        row.iter_mut().zip(points).for_each(|(entry, (y, offset))| *entry = self(x, beside(x, *y, *offset)));
+    fn row(&self, x: f64, y: &[f64], _: &[f64], row: &mut [T]) {
+        row.iter_mut().zip(y).for_each(|(entry, y)| *entry = self(x, *y));
     }
 }
 
@@ -43,15 +43,6 @@ impl<T, K: Fn(f64, f64, f64) -> T + Sync + Send> LineKernel<T> for ByOffset<K> {
 
     fn takes_offset(&self) -> bool {
         true
-    }
-}
-
-/// y, or where it was rounded to x, the next double on its side: there no kernel can be singular.
-fn beside(x: f64, y: f64, offset: f64) -> f64 {
-    match y == x {
-        true if offset > 0.0 => x.next_up(),
-        true if offset < 0.0 => x.next_down(),
-        _ => y,
     }
 }
 

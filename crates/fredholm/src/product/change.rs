@@ -60,9 +60,16 @@ impl Change {
     pub(crate) fn point(&self, t: f64) -> f64 {
         match *self {
             Self::Identity { .. } => t,
-            // From the nearer end, so that x − a and b − x keep their digits.
-            Self::Graded { a, b } if t <= 0.5 => a + (b - a) * (t.powi(GRADING) / denominator(t)),
-            Self::Graded { a, b } => b - (b - a) * ((1.0 - t).powi(GRADING) / denominator(t)),
+            Self::Graded { a, .. } if t == 0.0 => a,
+            Self::Graded { b, .. } if t == 1.0 => b,
+            // From the nearer end, so that x − a and b − x keep their digits; and never the end itself, where a source
+            // like x ln x is not a number.
+            Self::Graded { a, b } if t <= 0.5 => {
+                (a + (b - a) * (t.powi(GRADING) / denominator(t))).max(a.next_up())
+            }
+            Self::Graded { a, b } => {
+                (b - (b - a) * ((1.0 - t).powi(GRADING) / denominator(t))).min(b.next_down())
+            }
             Self::HalfLine { a, sign } => a + sign * ((1.0 - t) / t),
             Self::WholeLine => (1.0 - t.abs()) / t,
         }

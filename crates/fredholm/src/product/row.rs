@@ -49,6 +49,12 @@ impl<'k, T: Scalar> Sampler<'k, T> {
             self.y.extend(tau.iter().map(|tau| change.point(t + tau)));
             self.offset.extend(tau.iter().map(|tau| change.offset(t, *tau)));
         }
+        if !self.kernel.takes_offset() {
+            let points = self.y.iter_mut().zip(&self.offset);
+            points
+                .filter(|(y, offset)| **y == x && **offset != 0.0)
+                .for_each(|(y, offset)| *y = beside(x, *offset));
+        }
         self.kernel.row(x, &self.y, &self.offset, values);
         if let Some(j) = values.iter().position(|value| !value.finite()) {
             let value = format!("{:?}", values[j]);
@@ -59,6 +65,11 @@ impl<'k, T: Scalar> Sampler<'k, T> {
         }
         Ok(())
     }
+}
+
+/// The double next to x on the side of the offset: there no kernel is singular.
+fn beside(x: f64, offset: f64) -> f64 {
+    if offset > 0.0 { x.next_up() } else { x.next_down() }
 }
 
 /// What was found on a panel besides its weights.
