@@ -7,8 +7,9 @@ fn main() {
     divan::main();
 }
 
-/// Rows of a kernel: x is the same along a row, y runs over the nodes.
-const ROW: [usize; 3] = [16, 64, 256];
+/// Rows of a kernel: x is the same along a row, y runs over the nodes; 17, 25 and 41 are those of a Gauss rule with a
+/// probe.
+const ROW: [usize; 6] = [16, 17, 25, 41, 64, 256];
 
 fn nodes(n: usize) -> Vec<f64> {
     (0..n).map(|k| (k as f64 + 0.5) / n as f64).collect()
@@ -38,7 +39,23 @@ fn formula(bencher: Bencher<'_, '_>, n: usize, text: &str) {
     bencher.counter(ItemsCount::new(n)).bench_local(row);
 }
 
-/// A kernel in a module of its own: `native` is the closure, `batch` the formula.
+/// The same formula with y − x as a column more, as it is evaluated near the diagonal.
+fn exact(bencher: Bencher<'_, '_>, n: usize, text: &str) {
+    let kernel = Formula::with_difference(text, &["x", "y"], &[], ("y", "x")).expect("a formula");
+    let y = nodes(n);
+    let gaps: Vec<f64> = y.iter().map(|y| y - 0.3).collect();
+    let mut out = vec![0.0; n];
+    let mut row = || {
+        let columns =
+            [Column::Same(black_box(0.3)), Column::Each(black_box(&y)), Column::Each(black_box(&gaps))];
+        kernel.fill(&columns, &mut out);
+        black_box(&mut out);
+    };
+    row();
+    bencher.counter(ItemsCount::new(n)).bench_local(row);
+}
+
+/// A kernel in a module of its own: `native` is the closure, `batch` the formula, `exact` that with the difference.
 macro_rules! kernels {
     ($($name:ident: $text:literal, $closure:expr;)*) => {$(
         mod $name {
@@ -50,6 +67,11 @@ macro_rules! kernels {
             #[divan::bench(args = super::ROW)]
             fn batch(bencher: divan::Bencher<'_, '_>, n: usize) {
                 super::formula(bencher, n, $text);
+            }
+
+            #[divan::bench(args = super::ROW)]
+            fn exact(bencher: divan::Bencher<'_, '_>, n: usize) {
+                super::exact(bencher, n, $text);
             }
         }
     )*};

@@ -81,11 +81,11 @@ pub(crate) fn exact(graph: &mut Graph, operation: Binary, a: Node, b: Node) -> O
             Some(graph.plain_binary(operation, gap, zero))
         }
         Binary::Min | Binary::Max if rest == 0.0 => {
-            let gap = written(graph, column, factor, 0.0)?;
-            let zero = graph.real_constant(0.0);
-            let less = graph.plain_binary(Binary::Less, gap, zero);
+            // the step asks for a − b < 0, or with a factor that is negative for b − a < 0, which takes the other
             let (small, large) = if operation == Binary::Min { (a, b) } else { (b, a) };
-            graph.select(less, small, large).ok()
+            let (small, large) = if factor < 0.0 { (large, small) } else { (small, large) };
+            let gap = written(graph, column, factor.abs(), 0.0)?;
+            Some(graph.by_sign(gap, small, large))
         }
         _ => None,
     }

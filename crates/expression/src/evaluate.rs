@@ -31,9 +31,6 @@ thread_local! {
         const { RefCell::new(Registers { real: Vec::new(), complex: Vec::new(), owner: 0 }) };
 }
 
-/// A batch as short as this has loops of its own: four times as many lanes as it needs would double its time.
-const SHORT: usize = 16;
-
 impl Program {
     /// The real value at a point.
     pub fn at(&self, point: &[f64]) -> f64 {
@@ -57,11 +54,17 @@ impl Program {
     /// The real values, one a lane.
     pub fn fill(&self, columns: &[Column<'_>], out: &mut [f64]) {
         REGISTERS.with_borrow_mut(|registers| {
-            registers.prepare(self);
-            if out.len() <= SHORT {
-                registers.batch::<SHORT>(self, columns, out);
-            } else {
-                registers.batch::<LANES>(self, columns, out);
+            let varying = registers.uniform(self, columns, out.len());
+            for (block, out) in out.chunks_mut(LANES).enumerate() {
+                let window = Window { columns, start: block * LANES, lanes: out.len() };
+                match self.steps.split_last() {
+                    // the last step, which is the root's, writes where the values are wanted
+                    Some((last, before)) if last.depends & varying != 0 => {
+                        registers.varying(before, varying, window);
+                        last.real_value(out, &registers.real, &registers.complex, window);
+                    }
+                    _ => out.copy_from_slice(window.real(&registers.real, self.root)),
+                }
             }
         });
     }
@@ -69,16 +72,13 @@ impl Program {
     /// The values as complex numbers, one a lane.
     pub fn fill_complex(&self, columns: &[Column<'_>], out: &mut [C]) {
         REGISTERS.with_borrow_mut(|registers| {
-            registers.prepare(self);
-            let varying = registers.uniform::<LANES>(self, columns);
+            let varying = registers.uniform(self, columns, out.len());
             for (block, out) in out.chunks_mut(LANES).enumerate() {
-                registers.partial::<LANES>(self, columns, varying, block * LANES, out.len());
+                let window = Window { columns, start: block * LANES, lanes: out.len() };
+                registers.varying(&self.steps, varying, window);
                 match self.kind {
-                    Kind::Real => {
-                        let values = registers.real[self.root].0.iter();
-                        out.iter_mut().zip(values).for_each(|(out, value)| *out = value.into());
-                    }
-                    Kind::Complex => out.copy_from_slice(&registers.complex[self.root].0[..out.len()]),
+                    Kind::Real => lanes::promoted(out, window.real(&registers.real, self.root)),
+                    Kind::Complex => out.copy_from_slice(window.complex(&registers.complex, self.root)),
                 }
             }
         });
@@ -112,168 +112,128 @@ impl Registers {
     fn point(&mut self, program: &Program, point: &[f64]) {
         self.prepare(program);
         self.real.iter_mut().zip(point).for_each(|(register, value)| register.0[0] = *value);
-        program.steps.iter().for_each(|step| self.run::<1>(step, 1, Window::NONE));
-    }
-
-    /// The real values of a batch, in blocks of N.
-    #[inline(always)]
-    fn batch<const N: usize>(&mut self, program: &Program, columns: &[Column<'_>], out: &mut [f64]) {
-        let varying = self.uniform::<N>(program, columns);
-        let whole = match program.steps.split_last() {
-            Some((last, before)) if last.depends & varying != 0 => {
-                let (blocks, _) = out.as_chunks_mut::<N>();
-                for (block, out) in blocks.iter_mut().enumerate() {
-                    let window = Window { columns, start: block * N };
-                    for step in before.iter().filter(|step| step.depends & varying != 0) {
-                        self.run::<N>(step, N, window);
-                    }
-                    last.real_value::<N>(out, &self.real, &self.complex, N, window);
-                }
-                blocks.len() * N
-            }
-            _ => 0,
-        };
-        for (block, out) in out[whole..].chunks_mut(N).enumerate() {
-            self.partial::<N>(program, columns, varying, whole + block * N, out.len());
-            out.copy_from_slice(&self.real[program.root].0[..out.len()]);
-        }
+        program.steps.iter().for_each(|step| self.run(step, Window::POINT));
     }
 
     /// What is the same in all lanes; then bit k tells whether column k is not.
     #[inline(always)]
-    fn uniform<const N: usize>(&mut self, program: &Program, columns: &[Column<'_>]) -> u64 {
+    fn uniform(&mut self, program: &Program, columns: &[Column<'_>], lanes: usize) -> u64 {
+        self.prepare(program);
         let mut varying = 0;
-        for (k, column) in columns.iter().enumerate() {
+        for (k, (register, column)) in self.real.iter_mut().zip(columns).enumerate() {
             match column {
-                Column::Same(value) => self.real[k].0[..N].fill(*value),
+                Column::Same(value) => register.spread(*value, lanes),
                 Column::Each(_) => varying |= 1 << k,
             }
         }
         for step in program.steps.iter().filter(|step| step.depends & varying == 0) {
-            self.run::<N>(step, 1, Window::NONE);
+            self.run(step, Window::POINT);
+            if step.real {
+                let register = &mut self.real[step.register];
+                register.spread(register.0[0], lanes);
+            } else {
+                let register = &mut self.complex[step.register];
+                register.spread(register.0[0], lanes);
+            }
         }
         varying
     }
 
-    /// What is not, for the first lanes of the block that starts at lane `start`.
-    fn partial<const N: usize>(
-        &mut self,
-        program: &Program,
-        columns: &[Column<'_>],
-        varying: u64,
-        start: usize,
-        lanes: usize,
-    ) {
-        for (register, column) in self.real.iter_mut().zip(columns) {
-            if let Column::Each(values) = column {
-                register.0[..lanes].copy_from_slice(&values[start..start + lanes]);
-            }
-        }
-        for step in program.steps.iter().filter(|step| step.depends & varying != 0) {
-            self.run::<N>(step, lanes, Window::NONE);
+    /// What is not, of these steps.
+    #[inline(always)]
+    fn varying(&mut self, steps: &[Step], varying: u64, window: Window<'_>) {
+        for step in steps.iter().filter(|step| step.depends & varying != 0) {
+            self.run(step, window);
         }
     }
 
-    /// One step, on the first lanes at least and on no more than N. Its register lies behind those that it reads.
+    /// One step. Its register lies behind those that it reads.
     #[inline(always)]
-    fn run<const N: usize>(&mut self, step: &Step, lanes: usize, window: Window<'_>) {
+    fn run(&mut self, step: &Step, window: Window<'_>) {
         if step.real {
             let (before, rest) = self.real.split_at_mut(step.register);
-            step.real_value::<N>(rest[0].first_mut(), before, &self.complex, lanes, window);
+            step.real_value(&mut rest[0].0[..window.lanes], before, &self.complex, window);
         } else {
             let (before, rest) = self.complex.split_at_mut(step.register);
-            step.complex_value::<N>(rest[0].first_mut(), &self.real, before, lanes, window);
+            step.complex_value(&mut rest[0].0[..window.lanes], &self.real, before, window);
         }
     }
 }
 
-/// Where a whole block of the columns can be read in place.
+/// Some lanes, at most as many as a register has: columns are read in place.
 #[derive(Clone, Copy)]
 struct Window<'a> {
     columns: &'a [Column<'a>],
     start: usize,
+    lanes: usize,
 }
 
 impl<'a> Window<'a> {
-    /// The columns are in their registers.
-    const NONE: Window<'static> = Window { columns: &[], start: 0 };
+    /// One lane, and the columns are in their registers.
+    const POINT: Window<'static> = Window { columns: &[], start: 0, lanes: 1 };
 
     /// An argument: a column in place, or a register.
     #[inline(always)]
-    fn real<'b, const N: usize>(self, registers: &'b [Block<f64>], argument: usize) -> &'b [f64; N]
+    fn real<'b>(self, registers: &'b [Block<f64>], argument: usize) -> &'b [f64]
     where
         'a: 'b,
     {
-        if let Some(Column::Each(values)) = self.columns.get(argument)
-            && let Some(values) = values[self.start..].first_chunk()
-        {
-            return values;
+        match self.columns.get(argument) {
+            Some(Column::Each(values)) => &values[self.start..self.start + self.lanes],
+            _ => &registers[argument].0[..self.lanes],
         }
-        registers[argument].first()
+    }
+
+    /// An argument that is complex.
+    fn complex(self, registers: &[Block<C>], argument: usize) -> &[C] {
+        &registers[argument].0[..self.lanes]
     }
 }
 
 impl Step {
     #[inline(always)]
-    fn real_value<const N: usize>(
-        &self,
-        out: &mut [f64; N],
-        real: &[Block<f64>],
-        complex: &[Block<C>],
-        lanes: usize,
-        window: Window<'_>,
-    ) {
-        let [a, b, c] = self.arguments;
-        let real = |argument: usize| window.real::<N>(real, argument);
-        let complex = |argument: usize| complex[argument].first::<N>();
-        let operation = match self.action {
-            Action::One(operation) => operation,
-            Action::Two(first, second) => {
-                return lanes::fused(first, second, out, [real(a), real(b), real(c)]);
-            }
-        };
-        match operation {
-            Operation::Unary(operation) if self.real_arguments[0] => {
-                lanes::unary(operation, out, real(a), lanes);
-            }
-            Operation::Unary(operation) => lanes::real_of_complex(operation, out, complex(a), lanes),
-            Operation::Binary(operation) if self.real_arguments[0] => {
-                lanes::binary(operation, out, real(a), real(b), lanes);
-            }
-            Operation::Binary(operation) => lanes::comparison(operation, out, complex(a), complex(b)),
-            Operation::Power(n) => lanes::powers(n, out, real(a), lanes),
-            Operation::Select => lanes::selection(out, real(a), real(b), real(c), f64::NAN),
-            // these are no steps of real value
-            Operation::Constant(_) | Operation::Variable(_) | Operation::Promote => out.fill(f64::NAN),
+    fn real_value(&self, out: &mut [f64], real: &[Block<f64>], complex: &[Block<C>], window: Window<'_>) {
+        if self.real_arguments[0] {
+            let [a, b, c] = self.arguments;
+            let arguments = [window.real(real, a), window.real(real, b), window.real(real, c)];
+            (self.kernel)(&self.action, out, arguments);
+        } else {
+            self.real_of_complex(out, complex, window);
         }
     }
 
     #[inline(never)]
-    fn complex_value<const N: usize>(
-        &self,
-        out: &mut [C; N],
-        real: &[Block<f64>],
-        complex: &[Block<C>],
-        lanes: usize,
-        window: Window<'_>,
-    ) {
+    fn real_of_complex(&self, out: &mut [f64], complex: &[Block<C>], window: Window<'_>) {
+        let [a, b, _] = self.arguments;
+        let complex = |argument: usize| window.complex(complex, argument);
+        match self.action {
+            Action::One(Operation::Unary(operation)) => lanes::real_of_complex(operation, out, complex(a)),
+            Action::One(Operation::Binary(operation)) => {
+                lanes::comparison(operation, out, complex(a), complex(b));
+            }
+            _ => out.fill(f64::NAN), // the others are never real
+        }
+    }
+
+    #[inline(never)]
+    fn complex_value(&self, out: &mut [C], real: &[Block<f64>], complex: &[Block<C>], window: Window<'_>) {
         let [a, b, c] = self.arguments;
-        let real = |argument: usize| window.real::<N>(real, argument);
-        let complex = |argument: usize| complex[argument].first::<N>();
+        let real = |argument: usize| window.real(real, argument);
+        let complex = |argument: usize| window.complex(complex, argument);
         let undefined = C::new(f64::NAN, f64::NAN);
         let Action::One(operation) = self.action else { return }; // two are always real
         match operation {
-            Operation::Unary(operation) => lanes::complex_unary(operation, out, complex(a), lanes),
+            Operation::Unary(operation) => lanes::complex_unary(operation, out, complex(a)),
             Operation::Binary(operation) => match self.real_arguments {
                 [true, false, _] => lanes::arithmetic(operation, out, real(a), complex(b)),
                 [false, true, _] => lanes::arithmetic(operation, out, complex(a), real(b)),
-                _ => lanes::complex_binary(operation, out, complex(a), complex(b), lanes),
+                _ => lanes::complex_binary(operation, out, complex(a), complex(b)),
             },
-            Operation::Power(n) => lanes::complex_powers(n, out, complex(a), lanes),
-            Operation::Select => lanes::selection(out, real(a), complex(b), complex(c), undefined),
+            Operation::Power(n) => lanes::complex_powers(n, out, complex(a)),
+            Operation::Select => lanes::complex_selection(out, real(a), complex(b), complex(c), undefined),
             Operation::Promote => lanes::promoted(out, real(a)),
-            // these are no steps
-            Operation::Constant(_) | Operation::Variable(_) => out.fill(undefined),
+            // these are no steps of complex value
+            Operation::Constant(_) | Operation::Variable(_) | Operation::BySign => out.fill(undefined),
         }
     }
 }

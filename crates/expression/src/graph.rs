@@ -151,6 +151,11 @@ impl Graph {
         })
     }
 
+    /// `a` where `gap` is negative, else `b`, all of them real.
+    pub fn by_sign(&mut self, gap: Node, a: Node, b: Node) -> Node {
+        self.node(Operation::BySign, vec![gap, a, b])
+    }
+
     /// A negative number to a power that is not an integer is no real number.
     fn power_leaves_reals(&self, a: Node, b: Node) -> bool {
         let integer = self.real_value(b).is_some_and(|n| n.fract() == 0.0);
@@ -194,7 +199,7 @@ impl Graph {
     fn kind(&self, operation: Operation, arguments: &[Node]) -> Kind {
         let real = match operation {
             Operation::Constant(value) => Complex::from(value).im == 0.0,
-            Operation::Variable(_) => true,
+            Operation::Variable(_) | Operation::BySign => true,
             Operation::Promote => false,
             Operation::Unary(operation) => operation.yields_real() || self.is_real(arguments[0]),
             Operation::Binary(Binary::Equal | Binary::NotEqual) => true,
@@ -218,7 +223,7 @@ impl Graph {
             Operation::Binary(Binary::Pow) => known(0),
             Operation::Binary(operation) => operation.is_condition(),
             Operation::Power(n) => n % 2 == 0 || known(0),
-            Operation::Select => known(1) && known(2),
+            Operation::Select | Operation::BySign => known(1) && known(2),
         }
     }
 

@@ -15,6 +15,8 @@ pub(crate) enum Operation {
     Power(i32),
     /// The second argument where the first is not zero, else the third.
     Select,
+    /// Of real numbers, the second argument where the first is negative, else the third.
+    BySign,
     /// A real number as a complex one.
     Promote,
 }
@@ -258,6 +260,12 @@ pub(crate) fn select<T: Copy>(c: f64, a: T, b: T, undefined: T) -> T {
     } else {
         b
     }
+}
+
+/// `a` where `c` is negative, else `b`; undefined where `c` is.
+#[inline(always)]
+pub(crate) fn by_sign(c: f64, a: f64, b: f64) -> f64 {
+    spread(c, if c < 0.0 { a } else { b })
 }
 
 /// `value`, unless `a` is NaN.

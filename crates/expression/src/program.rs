@@ -2,6 +2,7 @@
 
 use crate::fuse::{Fusion, Outer, fusions};
 use crate::graph::{Graph, Kind, Node};
+use crate::lanes::{Kernel, kernel};
 use crate::operation::{Binary, Operation};
 use num_complex::Complex;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -18,6 +19,8 @@ pub(crate) enum Action {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Step {
     pub action: Action,
+    /// The loop that does it, if the arguments are real.
+    pub kernel: Kernel,
     /// Registers, as many as the action has arguments; the rest is not read.
     pub arguments: [usize; 3],
     pub register: usize,
@@ -89,7 +92,7 @@ impl Program {
                 real_arguments[k] = graph.is_real(*argument);
             }
             let (real, depends) = (facts.kind == Kind::Real, facts.depends);
-            Step { action, arguments, register, real, real_arguments, depends }
+            Step { action, kernel: kernel(action), arguments, register, real, real_arguments, depends }
         };
         match (facts.operation, facts.kind, fusion) {
             (Operation::Constant(value), Kind::Real, _) => {

@@ -74,6 +74,23 @@ fn the_smaller_is_chosen_by_the_difference() {
     assert_eq!([choose("min(x,y)", 1e-25), choose("min(x,y)", -1e-25)], [1.0, 2.0]);
     assert_eq!([choose("max(x,y)", 1e-25), choose("max(x,y)", -1e-25)], [2.0, 1.0]);
     assert_eq!([choose("max(y,x)", 1e-25), choose("min(3*x,3*y)", -1e-25)], [2.0, 6.0]);
+    assert!(choose("min(x,y)", f64::NAN).is_nan() && choose("max(x,y)", f64::NAN).is_nan());
+}
+
+#[test]
+fn a_row_near_the_diagonal_is_its_points() {
+    let x = 0.3;
+    for text in ["min(x,y)*(1-max(x,y))", "max(y,2*x-y)", "if(x<y,x,y)/(1+abs(x-y))"] {
+        let formula = Formula::with_difference(text, &["x", "y"], &[], ("y", "x")).unwrap();
+        for lanes in [1, 7, 16, 17, 25, 41, 64, 150] {
+            let y: Vec<f64> = (0..lanes).map(|k| f64::from(k) / f64::from(lanes)).collect();
+            let gaps: Vec<f64> = y.iter().map(|y| y - x).collect();
+            let mut row = vec![0.0; y.len()];
+            formula.fill(&[Column::Same(x), Column::Each(&y), Column::Each(&gaps)], &mut row);
+            let points: Vec<f64> = y.iter().zip(&gaps).map(|(y, gap)| formula.at(&[x, *y, *gap])).collect();
+            assert_eq!(row, points, "{text}");
+        }
+    }
 }
 
 #[test]
