@@ -5,7 +5,7 @@ use fredholm::quadrature::{
     Peano, QuadratureError, Recurrence, boole, gauss_legendre, integrate, romberg, simpson, trapezoid,
 };
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let f = |x: f64| x.exp();
     let exact = 1_f64.exp() - 1.0;
 

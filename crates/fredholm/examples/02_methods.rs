@@ -1,4 +1,4 @@
-//! Every method of the paper on one equation, and how fast each of them converges.
+//! 2. Every method of the paper on one equation, and how fast each of them converges.
 //!
 //! Builds on `01_quadrature`: Nyström's method is as good as its rule. New: spaces and projections, iterating, series.
 //!
@@ -17,7 +17,7 @@ struct Row {
     factor: f64,
 }
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let kernel = |x: f64, y: f64| (x + 1.0) * (-x * y).exp() / 2.0;
     let source = |x: f64| (-x).exp() - 0.5 + (-(x + 1.0)).exp() / 2.0;
     let equation = Equation::new(Interval::new(0.0, 1.0)?, kernel, source);

@@ -1,4 +1,5 @@
-//! r = f + A φ_n − φ_n: one attempt with given panels, and the error that the equation's own residual tells.
+//! r = f + A φ_n − φ_n, φ − (f + A φ_n) = (I − A)⁻¹ A r: one attempt with given panels, and the error that the equation's
+//! own residual tells (paper, §1.1.3).
 
 use super::discrete::Discrete;
 use super::panels::{Panels, coarsened, refined};

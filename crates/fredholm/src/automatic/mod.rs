@@ -1,4 +1,5 @@
-//! φ = f + A φ solved without being told how: panels that the residual asks for, until the error meets the tolerance.
+//! φ = f + A φ solved without being told how: panels that the residual asks for, until the error meets the tolerance
+//! (paper, §1.4.2 with the rule of §1.2.3).
 //!
 //! The unknown is a polynomial of degree 15 on each of a few panels; the kernel is integrated by the rule that varies
 //! with x ([`crate::product`]), to rounding, whatever its class. What remains is the error of φ_n, and the equation

@@ -1,4 +1,4 @@
-//! The panels that the interval is cut into, each with a polynomial of degree 15.
+//! φ_n(x) = Σ_j φ_n(x_j) u_j(x) on each of the panels that the interval is cut into: polynomials of degree 15 (paper, §1.3.2).
 
 use crate::equation::Scalar;
 use crate::product::{COARSE, Change, FINE, Reference};

@@ -1,4 +1,5 @@
-//! K(x, a) = K(x, b), f(a) = f(b), and their slopes: whether an equation goes round a circle.
+//! K(x, a) = K(x, b), f(a) = f(b), and their slopes: whether an equation goes round a circle, as §1.3.3 asks of trigonometric
+//! interpolation.
 
 use crate::equation::{Equation, Scalar};
 

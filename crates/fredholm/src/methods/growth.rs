@@ -1,4 +1,4 @@
-//! n, 2n, 4n, … until the error estimate meets the tolerance: the methods that solve a linear system.
+//! n, 2n, 4n, … until the error estimate meets the tolerance: the methods that solve a linear system (paper, §1.2.3–1.4).
 
 use super::residual::{Judgement, judge};
 use super::{Approximation, Method, Setup, Yardstick};

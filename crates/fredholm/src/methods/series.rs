@@ -1,4 +1,6 @@
-//! How many terms of Σ A^k f, and whether they converge at all: the front of [`super::neumann`] and [`super::successive`].
+//! n with ‖(I − A)⁻¹‖ ‖A^{n+1} f‖ ≤ ε: how many terms of Σ A^k f, and whether they converge at all (paper, §1.2.1, §1.2.2).
+//!
+//! The front of [`super::neumann`] and [`super::successive`].
 
 use super::growth::answer;
 use super::neumann::{Series, largest};

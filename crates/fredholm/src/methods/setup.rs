@@ -1,4 +1,4 @@
-//! Which of the paper's methods, with which space or rule, how large, and how exact.
+//! Which of the paper's methods (chapter 1), with which space or rule, how large, and how exact.
 
 use super::RuleKind;
 use crate::space::SpaceKind;

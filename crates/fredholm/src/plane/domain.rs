@@ -1,4 +1,4 @@
-//! D: where an equation in the plane holds.
+//! D in φ(p) = f(p) + ∫_D K(p, q) φ(q) dq: where an equation in the plane holds (paper, §1.1.3).
 
 use crate::equation::EquationError;
 use std::f64::consts::PI;

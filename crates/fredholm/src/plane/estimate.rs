@@ -1,4 +1,5 @@
-//! φ − φ_n = (I − A)⁻¹ r, r = f + Aφ_n − φ_n: the error of an answer from the equation's own residual.
+//! φ − φ_n = (I − A)⁻¹ r, r = f + Aφ_n − φ_n: the error of an answer from the equation's own residual (paper,
+//! §1.1.3).
 //!
 //! Aφ_n is integrated by a finer rule, with other nodes; r is taken at the nodes and at points that are none.
 

@@ -1,5 +1,5 @@
-//! D as a union of pieces, each with a product rule of its own: it grows where and in which direction the rule falls
-//! short.
+//! ∫_D g = Σ_pieces ∫ g: D as a union of pieces, each with a product rule of its own, which grows where and in the direction
+//! in which it falls short (paper, §4.1: a composite rule).
 
 use super::Domain;
 use super::piece::Piece;

@@ -1,4 +1,5 @@
-//! ∫_piece g ≈ Σ_ij w_ij g(q_ij): a rule with two counts on a rectangle, a triangle or a ring, and their parts.
+//! ∫_piece g ≈ Σ_ij w_ij g(q_ij): a rule with two counts on a rectangle, a triangle or a ring, and their parts (paper,
+//! §4.3.2 in each direction).
 
 use super::Domain;
 use super::domain::triangle_area;

@@ -1,4 +1,5 @@
-//! n grows until the estimated error meets the tolerance, and where growth does not pay the domain is divided.
+//! n grows until the estimated ‖φ − φ_n‖∞ meets the tolerance, and where growth does not pay the domain is divided (paper,
+//! §1.2.3).
 
 use super::PlaneEquation;
 use super::alternative::{alternative, is_resolved};

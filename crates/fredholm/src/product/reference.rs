@@ -1,4 +1,5 @@
-//! Gauss–Legendre on [−1, 1] as a place to interpolate, and to see whether a function is resolved.
+//! g(x) = Σ_j g(x_j) u_j(x) at the nodes of Gauss–Legendre on [−1, 1]: a place to interpolate, and to see whether a function is
+//! resolved (paper, §1.3.2, §4.3.2).
 
 use crate::equation::Scalar;
 use crate::quadrature::gauss_legendre;

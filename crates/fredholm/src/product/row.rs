@@ -1,5 +1,5 @@
 //! κ_j(x) = ∫ K(x, y) u_j(y) dy on a panel: the interval is cut until K(x, ·) is resolved on every piece, and what the
-//! pieces find is gathered at the panel's nodes, by the transposed of the interpolation from there.
+//! pieces find is gathered at the panel's nodes, by the transposed of the interpolation from there (paper, §1.2.3, remark).
 
 use super::change::Change;
 use super::diagonal::{Core, Diagonal};

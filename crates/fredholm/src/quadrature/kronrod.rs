@@ -1,4 +1,5 @@
-//! Gauss–Kronrod: n + 1 nodes added to Gauss's n, of order 3n + 1, so that the difference of the two estimates the error.
+//! ∫ g ≈ Σ_{k ≤ 2n+1} w_k g(x_k), n of whose nodes are Gauss's: Gauss–Kronrod, of order 3n + 1, so that the difference of the
+//! two estimates the error.
 
 use super::Quadrature;
 use super::orthogonal::Recurrence;
