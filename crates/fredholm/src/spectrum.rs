@@ -4,7 +4,7 @@
 //! seen by the left eigenvector y, is to first order the error of the eigenvalue: δλ = y (A φ − λ φ) / y φ.
 
 use crate::automatic::discrete::Discrete;
-use crate::automatic::found::PanelFunction;
+use crate::automatic::found::{self, PanelFunction};
 use crate::automatic::panels::{Panels, coarsened, refined};
 use crate::equation::{Class, Complex64, Equation, EquationError, Function, Scalar};
 use crate::product::{COARSE, Change, FINE, Product};
@@ -65,11 +65,11 @@ pub fn spectrum<'e, 'a: 'e, T: Scalar>(
         let finer = panels.cut(|panel| if best.contributions[panel] >= 0.05 * worst { 2 } else { 1 });
         let unknowns = finer.len() * COARSE.len() * equation.components();
         if best.error() <= tolerance * best.largest() || unknowns > UNKNOWNS {
-            return Ok(best.spectrum(&product));
+            return Ok(best.spectrum(product));
         }
         let next = Pairs::new(&product, finer.clone(), count)?;
         if next.error() >= best.error() && best.error() < 1e-10 * best.largest() {
-            return Ok(best.spectrum(&product));
+            return Ok(best.spectrum(product));
         }
         (best, panels) = (next, finer);
     }
@@ -94,15 +94,10 @@ impl Pairs {
         let coarse = Discrete::assemble(product, &panels, &COARSE)?;
         let fine = Discrete::assemble(product, &panels, &FINE)?;
         let failed = || EquationError::Method("the eigenvalue iteration did not converge".to_owned());
-        let mut all = eigen(coarse.n, &coarse.a).ok_or_else(failed)?;
-        all.sort_by(|one, other| {
-            other.0.norm().total_cmp(&one.0.norm()).then(other.0.im.total_cmp(&one.0.im))
-        });
+        let all = sorted_eigen(coarse.n, &coarse.a).ok_or_else(failed)?;
         let largest = all.first().map_or(0.0, |(value, _)| value.norm());
         let wanted = all.iter().take(count).take_while(|(value, _)| value.norm() > 1e-14 * largest).count();
-
-        let vectors = Mat::from_fn(coarse.n, coarse.n, |i, k| all[k].1[i]);
-        let left = vectors.partial_piv_lu().solve(Mat::<Complex64>::identity(coarse.n, coarse.n));
+        let left = left_eigenvectors(&coarse, &all, wanted).ok_or_else(failed)?;
         let norms = fine.panel_norms(panels.len(), &FINE);
         let norm: f64 = norms.iter().sum();
         let mut contributions = vec![0.0; panels.len()];
@@ -124,10 +119,10 @@ impl Pairs {
             let change = coarsened(&change);
             let seen: Complex64 = (0..coarse.n).map(|i| left[(k, i)] * change[i]).sum();
             let condition = (0..coarse.n).map(|i| left[(k, i)].norm()).sum::<f64>() * size;
-            let rounding = 2.0 * f64::EPSILON * norm * condition;
-            let error = SAFETY * seen.norm() + rounding;
-            // What cannot be told from 0 is no eigenvalue: those of a nilpotent A are √ε.
-            if error < value.norm() {
+            let rounding = 8.0 * f64::EPSILON * norm * condition;
+            // What rounding alone could have made of 0 is no eigenvalue: those of a nilpotent A are √ε.
+            if rounding < value.norm() {
+                let error = SAFETY * seen.norm() + rounding;
                 pairs.push((value, error, vector.iter().map(|v| v / size).collect()));
             }
         }
@@ -145,14 +140,41 @@ impl Pairs {
         self.pairs.first().map_or(0.0, |(value, ..)| value.norm())
     }
 
-    fn spectrum<'e, T: Scalar>(self, product: &Product<'e, '_, T>) -> Spectrum<'e> {
-        let panels = Arc::new(self.panels);
+    fn spectrum<'e, 'a: 'e, T: Scalar>(self, product: Product<'e, 'a, T>) -> Spectrum<'e> {
+        let (panels, product) = (Arc::new(self.panels), Arc::new(product));
         let eigenpair = |(value, error_estimate, phi)| {
-            let function = PanelFunction::new(product, &panels, phi).function();
-            Eigenpair { value, error_estimate, function }
+            let phi = PanelFunction::new(&product, &panels, phi);
+            Eigenpair { value, error_estimate, function: found::eigenfunction(product.clone(), phi, value) }
         };
         Spectrum { eigenpairs: self.pairs.into_iter().map(eigenpair).collect(), unknowns: self.unknowns }
     }
+}
+
+/// Eigenvalues, by modulus, with their vectors.
+fn sorted_eigen<T: Scalar>(n: usize, a: &[T]) -> Option<Vec<(Complex64, Vec<Complex64>)>> {
+    let mut all = eigen(n, a)?;
+    all.sort_by(|one, other| other.0.norm().total_cmp(&one.0.norm()).then(other.0.im.total_cmp(&one.0.im)));
+    Some(all)
+}
+
+/// Row by row, the left eigenvectors y_k with y_k v_l = δ_kl for the eigenvectors v_l of the eigenvalues that are wanted.
+///
+/// Not from the inverse of all v_l: of an operator of low rank most belong to 0, and need not be independent.
+fn left_eigenvectors<T: Scalar>(
+    a: &Discrete<T>,
+    right: &[(Complex64, Vec<Complex64>)],
+    wanted: usize,
+) -> Option<Mat<Complex64>> {
+    let n = a.n;
+    // Eigenvalues of one modulus belong together.
+    let same = |k: usize| right[k].0.norm() >= (1.0 - 1e-6) * right[k - 1].0.norm();
+    let kept = (wanted..n).take_while(|k| *k > 0 && same(*k)).last().map_or(wanted, |k| k + 1);
+    let transposed: Vec<T> = (0..n * n).map(|k| a.a[(k % n) * n + k / n]).collect();
+    let left = sorted_eigen(n, &transposed)?;
+    let products = Mat::from_fn(kept, kept, |k, l| {
+        left[k].1.iter().zip(&right[l].1).map(|(y, v)| y * v).sum::<Complex64>()
+    });
+    Some(products.partial_piv_lu().solve(Mat::from_fn(kept, n, |k, i| left[k].1[i])))
 }
 
 fn modulus(values: &[Complex64]) -> f64 {
@@ -161,9 +183,5 @@ fn modulus(values: &[Complex64]) -> f64 {
 
 /// A u for a complex u.
 fn complex_apply<T: Scalar>(a: &Discrete<T>, u: &[Complex64]) -> Vec<Complex64> {
-    let complex = |a: &T| {
-        let (re, im) = a.parts();
-        Complex64::new(re, im)
-    };
-    a.a.chunks(a.n).map(|row| row.iter().zip(u).map(|(a, u)| complex(a) * u).sum()).collect()
+    a.a.chunks(a.n).map(|row| row.iter().zip(u).map(|(a, u)| a.complex() * u).sum()).collect()
 }

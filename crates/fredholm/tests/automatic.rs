@@ -263,8 +263,38 @@ fn eigenfunctions_are_those_of_the_operator() {
         let exact = |x: f64| ((k as f64 + 0.5) * std::f64::consts::PI * x).sin();
         let size = pair.function.at(&0.37) / exact(0.37);
         for x in places([0.0, 1.0]) {
-            assert!((pair.function.at(&x) / size - exact(x)).norm() < 1e-10);
+            assert!((pair.function.at(&x) / size - exact(x)).norm() < 1e-12);
         }
+    }
+}
+
+/// All but one of the eigenvalues are 0, and there are no n independent eigenvectors.
+#[test]
+fn an_operator_of_rank_one_has_its_one_eigenvalue() {
+    let unit = Interval::new(0.0, 1.0).unwrap();
+    for kernel in [|_: f64, _: f64| 2.0, |x: f64, y: f64| 6.0 * x * y] {
+        let equation = Equation::new(unit, kernel, |_: f64| 0.0);
+        let found = spectrum(&equation, 4, 1e-10).unwrap();
+        assert_eq!(found.eigenpairs.len(), 1);
+        assert!((found.eigenpairs[0].value - 2.0).norm() < 1e-13);
+    }
+}
+
+#[test]
+fn no_eigenvalue_is_lost_where_the_first_panels_are_too_long() {
+    // A e^{ikx} = (λ_k) e^{ikx} on a circle: a Gaussian so thin that its eigenvalues hardly decay.
+    let w = 0.01_f64;
+    let circle = Interval::new(0.0, 1.0).unwrap();
+    let kernel =
+        move |x: f64, y: f64| (-1..=1).map(|k| (-((x - y + f64::from(k)) / w).powi(2)).exp()).sum::<f64>();
+    let equation = Equation::new(circle, kernel, |_: f64| 0.0);
+    let found = spectrum(&equation, 3, 1e-8).unwrap();
+    assert_eq!(found.eigenpairs.len(), 3);
+    let root = std::f64::consts::PI.sqrt();
+    for (k, pair) in found.eigenpairs.iter().enumerate() {
+        let k = k.div_ceil(2) as f64;
+        let exact = w * root * (-(std::f64::consts::PI * k * w).powi(2)).exp();
+        assert!((pair.value - exact).norm() <= pair.error_estimate, "{k}: {pair:?} of {exact}");
     }
 }
 
@@ -282,6 +312,21 @@ fn message(
 ) -> String {
     let equation = Equation::new(Interval::new(0.0, 1.0).unwrap(), kernel, source);
     solve(&equation, &Options::default()).unwrap_err().to_string()
+}
+
+/// x − y has no more digits than x and y leave it; what that costs is said.
+#[test]
+fn the_rounding_of_a_difference_is_in_the_estimate() {
+    for exponent in [-0.25, -0.5, -0.75] {
+        let kernel = move |x: f64, y: f64| 0.1 * (x - y).abs().powf(exponent);
+        let beta = 1.0 + exponent;
+        let source = move |x: f64| 1.0 - 0.1 * ((x - 9.0).powf(beta) + (10.0 - x).powf(beta)) / beta;
+        let equation = Equation::new(Interval::new(9.0, 10.0).unwrap(), kernel, source);
+        let answer = solve(&equation, &to(1e-14)).unwrap();
+        let error = places([9.0, 10.0]).iter().map(|x| (answer.at(x) - 1.0).abs()).fold(0.0, f64::max);
+        assert!(error <= answer.error_estimate, "{exponent}: {error:e} of {:e}", answer.error_estimate);
+        assert_eq!(answer.status, Status::ToleranceNotMet);
+    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! φ(x) = f(x) + Σ_q κ_q(x) φ_n(y_q): the solution as a function, by Nyström's interpolant (paper, (1.29)).
 
 use super::panels::Panels;
-use crate::equation::{Function, Interval, Scalar};
+use crate::equation::{Complex64, Function, Interval, Scalar};
 use crate::product::{COARSE, Change, POINTS, Product};
 use std::sync::Arc;
 
@@ -60,7 +60,7 @@ pub(crate) fn interpolant<'e, 'a: 'e, T: Scalar>(
             return phi.at(c, *x);
         }
         let source = source_or_limit(&product, c, *x);
-        let sum = transported(&product, &phi, c, *x);
+        let sum = transported(&product, &phi, c, *x, |weight| weight);
         sum.map_or(T::from(f64::NAN), |sum| source + sum)
     };
     Function::new(components, at)
@@ -78,22 +78,39 @@ fn source_or_limit<T: Scalar>(product: &Product<'_, '_, T>, c: usize, x: f64) ->
     }
 }
 
-/// Σ_b Σ_q κ_q(x) φ_b(y_q).
-fn transported<T: Scalar>(
+/// (1/λ) A φ_n, which satisfies A φ = λ φ between the nodes better than φ_n does.
+pub(crate) fn eigenfunction<'e, 'a: 'e, T: Scalar>(
+    product: Arc<Product<'e, 'a, T>>,
+    phi: PanelFunction<Complex64>,
+    value: Complex64,
+) -> Function<'e, f64, Complex64> {
+    let components = phi.components();
+    Function::new(components, move |c, x: &f64| {
+        let polynomial = phi.at(c, *x);
+        if x.is_infinite() || polynomial.re.is_nan() {
+            return polynomial;
+        }
+        transported(&product, &phi, c, *x, T::complex).map_or(polynomial, |sum| sum / value)
+    })
+}
+
+/// Σ_b Σ_q κ_q(x) φ_b(y_q), with the κ_q made numbers of φ's kind.
+fn transported<T: Scalar, V: Scalar>(
     product: &Product<'_, '_, T>,
-    phi: &PanelFunction<T>,
+    phi: &PanelFunction<V>,
     c: usize,
     x: f64,
-) -> Option<T> {
+    lift: impl Fn(T) -> V,
+) -> Option<V> {
     let t = phi.change.parameter(x);
-    let mut sum = T::ZERO;
+    let mut sum = V::ZERO;
     let mut weights = [T::ZERO; POINTS];
     for b in 0..phi.components() {
         let mut builder = product.builder((c, b), t);
         for panel in 0..phi.panels.len() {
             weights.fill(T::ZERO);
             builder.panel(phi.panels.ends(panel), &COARSE, &mut weights).ok()?;
-            sum += weights.iter().zip(phi.panel(b, panel)).map(|(w, v)| *w * *v).sum::<T>();
+            sum += weights.iter().zip(phi.panel(b, panel)).map(|(w, v)| lift(*w) * *v).sum::<V>();
         }
     }
     Some(sum)

@@ -43,6 +43,12 @@ pub trait Scalar:
     /// The real and the imaginary part.
     fn parts(self) -> (f64, f64);
 
+    /// The number as a complex one.
+    fn complex(self) -> Complex64 {
+        let (re, im) = self.parts();
+        Complex64::new(re, im)
+    }
+
     /// Whether neither part is infinite or NaN.
     fn finite(self) -> bool;
 

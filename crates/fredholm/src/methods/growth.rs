@@ -128,7 +128,8 @@ const FIRST: usize = 4;
 fn largest(setup: &Setup) -> usize {
     match (setup.method, setup.space) {
         (Method::Nystrom, _) => 2100,
-        (Method::LeastSquares, _) => 300,
+        (Method::LeastSquares, SpaceKind::Piecewise(_)) => 300,
+        (Method::LeastSquares, _) => 100,
         (Method::Galerkin | Method::IteratedGalerkin, SpaceKind::Piecewise(_)) => 600,
         (Method::Galerkin | Method::IteratedGalerkin, _) => 150,
         (_, SpaceKind::Piecewise(_)) => 1100,

@@ -172,7 +172,8 @@ impl<'k, T: Scalar> RowBuilder<'k, T> {
         self.depth = self.depth.max(depth);
         let resolved = self.is_resolved(tail / PART, length);
         // Where halving does not help, it is noise that is left.
-        let noise = tail > 0.7 * above && tail <= 1e-12 * self.largest();
+        let largest = self.largest();
+        let noise = tail <= self.noise() * largest || tail > 0.7 * above && tail <= 1e-12 * largest;
         if resolved || noise || depth >= DEPTH {
             let mut weights = [T::ZERO; POINTS];
             let terms = self.values.iter().zip(&COARSE.weights);
@@ -195,9 +196,10 @@ impl<'k, T: Scalar> RowBuilder<'k, T> {
     fn singular(&mut self, end: f64, core: &Core, depth: u32) -> Result<Part<T>, EquationError> {
         if depth >= core.levels() {
             let tail = self.sample_core(end, core.power)?;
-            let resolved = self.is_resolved(tail, 1.0);
+            let rounding = self.rounding_of_core(core.power);
+            let resolved = tail <= rounding || self.is_resolved(tail, 1.0);
             if resolved || depth >= DEPTH {
-                let error = self.rounding_of_core(core.power) + if resolved { 0.0 } else { tail };
+                let error = rounding + if resolved { 0.0 } else { tail };
                 return Ok(Part { weights: core.gather(&self.values, end < 0.0), error });
             }
         }
@@ -247,7 +249,7 @@ impl<'k, T: Scalar> RowBuilder<'k, T> {
         if self.sampler.kernel.takes_offset() {
             return 0.0;
         }
-        let grain = 0.5 * f64::EPSILON * self.sampler.x.abs();
+        let grain = self.grain();
         let steepest = 1.0 - 5.0 / f64::from(power);
         let terms = self.values.iter().zip(&SINGULAR.weights).zip(&self.sampler.offset);
         terms
@@ -257,6 +259,24 @@ impl<'k, T: Scalar> RowBuilder<'k, T> {
                 k.modulus() * w * slope * (grain / offset.abs()).min(1.0)
             })
             .sum()
+    }
+
+    /// What is lost of an offset, at most, by a kernel that computes it from x and y: half a unit in the last place of
+    /// either; and as much again, because the errors of neighbours are not independent (3.6 times half a unit was seen).
+    fn grain(&self) -> f64 {
+        4.0 * f64::EPSILON * self.sampler.x.abs()
+    }
+
+    /// The relative rounding of a singular kernel that is not told y − x, on the piece that was sampled last.
+    fn noise(&self) -> f64 {
+        match self.diagonal {
+            Diagonal::Singular(_) if !self.sampler.kernel.takes_offset() => {
+                let nearest =
+                    self.sampler.offset.iter().map(|offset| offset.abs()).fold(f64::INFINITY, f64::min);
+                self.grain() / nearest
+            }
+            _ => 0.0,
+        }
     }
 
     fn largest(&self) -> f64 {
