@@ -70,6 +70,11 @@ impl<T: Scalar> SecondKind<T> {
         self.inverse_norm
     }
 
+    /// ‖I − A‖∞.
+    pub(crate) fn norm(&self) -> f64 {
+        self.norm
+    }
+
     /// ‖I − A‖∞ ‖(I − A)⁻¹‖∞.
     pub(crate) fn condition(&self) -> f64 {
         self.norm * self.inverse_norm

@@ -51,6 +51,9 @@ pub fn spectrum<'e, 'a: 'e, T: Scalar>(
     tolerance: f64,
 ) -> Result<Spectrum<'e>, EquationError> {
     let plain = Product::new(equation, None)?;
+    if count == 0 {
+        return Ok(Spectrum { eigenpairs: Vec::new(), unknowns: 0 });
+    }
     // Eigenfunctions of a singular kernel are singular at the ends.
     let product = match plain.worst_class() {
         Class::Logarithmic | Class::Algebraic { .. } => plain.changed(Change::graded(equation.interval())),

@@ -334,6 +334,14 @@ fn what_is_no_number_is_told_with_its_place() {
     assert!(message(|_, _| 1.0, |x| (x - 0.5).sqrt()).starts_with("the source is NaN at x = 0."));
     assert!(message(|x, y| (x - y - 0.5).ln(), |x| x).starts_with("the kernel is NaN at x = 0."));
     assert!(message(|x, y| (x - y).powi(-2), |x| x).contains("cannot be integrated"));
+    let problem = problem("D01");
+    let equation = problem.equation();
+    for exponent in [f64::NAN, -1.0] {
+        let class = Some(Class::Algebraic { exponent });
+        let error = solve(&equation, &Options { class, ..to(1e-8) }).unwrap_err();
+        assert!(error.to_string().contains("state an exponent above −1"), "{error}");
+    }
+    assert!(solve(&equation, &to(f64::NAN)).is_err());
     assert_eq!(Interval::new(1.0, 1.0), Err(EquationError::EmptyInterval { a: 1.0, b: 1.0 }));
     assert!(Interval::new(f64::NAN, 1.0).is_err());
 }
@@ -353,6 +361,56 @@ fn outside_of_the_interval_there_is_no_solution() {
     let equation = problem.equation();
     let answer = solve(&equation, &to(1e-10)).unwrap();
     assert!(answer.at(&1.5).is_nan() && answer.at(&f64::NAN).is_nan());
+}
+
+#[test]
+fn jumps_and_spikes_of_the_source_are_seen() {
+    let unit = Interval::new(0.0, 1.0).unwrap();
+    for tolerance in [1e-3, 1e-6, 1e-10] {
+        for jump in [0.51, 0.3712] {
+            let phi = move |x: f64| if x < jump { 1.0 } else { 2.0 };
+            let moment = 0.5 * jump * jump + (1.0 - jump * jump);
+            let equation =
+                Equation::new(unit, |x: f64, y: f64| x * y / 2.0, move |x: f64| phi(x) - moment * x / 2.0);
+            let answer = solve(&equation, &to(tolerance)).unwrap();
+            let error = places([0.0, 1.0]).iter().map(|x| (answer.at(x) - phi(*x)).abs()).fold(0.0, f64::max);
+            assert!(
+                error <= answer.error_estimate && error < tolerance,
+                "{jump} to {tolerance:e}: {error:e}"
+            );
+        }
+        // φ = f + c x with c = ½ ∫ φ, so that ¾ c = ½ ∫ f.
+        let width = 2e-3;
+        let spike = move |x: f64| (-((x - 0.70123) / width).powi(2)).exp();
+        let equation = Equation::new(unit, |x: f64, _: f64| x / 2.0, spike);
+        let answer = solve(&equation, &to(tolerance)).unwrap();
+        let exact = spike(0.9) + 0.9 * width * std::f64::consts::PI.sqrt() / 1.5;
+        assert!((answer.at(&0.9) - exact).abs() <= answer.error_estimate, "{answer:?}");
+    }
+}
+
+#[test]
+fn breaks_off_the_diagonal_are_found() {
+    let integral = |y: f64| 2.0 * y - (3.0 * y).cos() / 3.0;
+    let kernel = |x: f64, y: f64| if y < x / 2.0 { 1.0 } else { -0.5 };
+    let source = move |x: f64| {
+        let (low, break_, high) = (integral(0.0), integral(x / 2.0), integral(1.0));
+        (3.0 * x).sin() + 2.0 - ((break_ - low) - 0.5 * (high - break_))
+    };
+    let equation = Equation::new(Interval::new(0.0, 1.0).unwrap(), kernel, source);
+    let answer = solve(&equation, &to(1e-10)).unwrap();
+    let exact = |x: f64| (3.0 * x).sin() + 2.0;
+    let error = places([0.0, 1.0]).iter().map(|x| (answer.at(x) - exact(*x)).abs()).fold(0.0, f64::max);
+    assert!(error <= answer.error_estimate && error < 1e-10, "{error:e} of {answer:?}");
+}
+
+#[test]
+fn a_very_large_source_without_solution_is_told() {
+    for size in [1e-200, 1e200] {
+        let unit = Interval::new(0.0, 1.0).unwrap();
+        let equation = Equation::new(unit, |x: f64, y: f64| 4.0 * x * x * y, move |_: f64| size);
+        assert_eq!(solve(&equation, &to(1e-8)).unwrap().status, Status::NoSolution);
+    }
 }
 
 /// The nodes gather towards the ends until doubles do, but the source is not asked for its value there.

@@ -31,6 +31,15 @@ pub(crate) struct Attempt<T: Scalar> {
 /// What the estimate may be too small by, as the first term of a series.
 const SAFETY: f64 = 2.0;
 
+/// A residual whose last coefficients are more than this part of it is not resolved at all: of a jump they are a third, of
+/// |x|^(1/2) a twelfth.
+const ERRATIC: f64 = 0.1;
+
+/// Places at which the source is looked at between the nodes, by the golden ratio: nothing wider than 1/200 of the interval
+/// is missed, and 16 unknowns take 30 µs instead of 20.
+const PROBES: usize = 200;
+const GOLDEN: f64 = 0.618_033_988_749_895;
+
 /// From this condition number on, I − A is examined by its singular values.
 const SUSPICIOUS: f64 = 1e4;
 
@@ -73,7 +82,30 @@ impl<T: Scalar> Attempt<T> {
                 attempt.verdict(singular, &fine_source, &fine_weights, tolerance);
             }
         }
+        if attempt.error.is_finite() {
+            attempt.look_between(product, &fine_source);
+        }
         Ok(attempt)
+    }
+
+    /// Looks at the source once more, between all nodes: where it is not what they say, the panel must be cut.
+    fn look_between(&mut self, product: &Product<'_, '_, T>, source: &[T]) {
+        let (equation, change) = (product.equation(), product.change());
+        let (from, to) = change.range();
+        for probe in 0..PROBES {
+            let t = from + (to - from) * (0.5 + GOLDEN * probe as f64).fract();
+            let (panel, xi) = self.panels.locate(t);
+            for a in 0..equation.components() {
+                let part = &source[(a * self.panels.len() + panel) * FINE.len()..][..FINE.len()];
+                let missed = (equation.source(a, change.point(t)) - FINE.interpolate(part, xi)).modulus();
+                if missed > 1e3 * (FINE.unresolved(part) + f64::EPSILON * largest(part) + self.floor) {
+                    self.error = f64::INFINITY;
+                    self.contributions.fill(0.0);
+                    self.contributions[panel] = missed;
+                    return;
+                }
+            }
+        }
     }
 
     /// The error of f + A φ_n: with r = f + A φ_n − φ_n it is (I − A)⁻¹ A r.
@@ -89,9 +121,15 @@ impl<T: Scalar> Attempt<T> {
         self.scale = largest(&iterated);
         let error = largest(&transported).max(largest(&correction));
         let rounding = 2.0 * f64::EPSILON * (1.0 + norm) * self.scale;
-        // What the residual's polynomials leave out of it is not in the correction.
+        // What the residual's polynomials leave out of it is not in the correction. A polynomial K does not see it either,
+        // unless it is a jump or a spike, whose coefficients do not decay and are not right themselves.
         let beyond = |part: &[T]| (FINE.unresolved(part) - rounding).max(0.0);
-        let unseen: f64 = self.by_panel(&residual, &fine.ragged, beyond).iter().sum();
+        let erratic = |part: &[T]| {
+            let tail = beyond(part);
+            if tail > ERRATIC * largest(part) { tail } else { 0.0 }
+        };
+        let smooth: f64 = self.by_panel(&residual, &fine.ragged, beyond).iter().sum();
+        let unseen = smooth + self.by_panel(&residual, &norms, erratic).iter().sum::<f64>();
         let quadrature: f64 = self.by_panel(&phi, &fine.errors, largest).iter().sum();
         self.floor = (rounding + quadrature) * inverse_norm.max(1.0);
         self.error = SAFETY * error + unseen * inverse_norm.max(1.0) + self.floor;

@@ -48,6 +48,9 @@ pub fn solve<'e, 'a: 'e, T: Scalar>(
     equation: &'e Equation<'a, T>,
     options: &Options,
 ) -> Result<Answer<'e, f64, T>, EquationError> {
+    if options.tolerance.is_nan() {
+        return Err(EquationError::Method("the tolerance is NaN: it must be a number".to_owned()));
+    }
     let plain = Arc::new(Product::new(equation, options.class)?);
     let (attempt, ending) = search(&plain, plain.change().least_panels(), options)?;
     if ending != Ending::AtEnds {
@@ -78,6 +81,9 @@ enum Ending {
 /// nothing before its panels have been halved six times.
 const PATIENCE: usize = 8;
 
+/// Unknowns up to which I − A is examined for null functions that are not resolved yet.
+const EXAMINED: usize = 500;
+
 /// Panels whose residual contributes more than this part of the largest contribution are cut.
 const CUT: f64 = 0.05;
 
@@ -95,8 +101,11 @@ fn search<T: Scalar>(
         if best.status == Some(Status::NoSolution) || best.meets(options.tolerance) {
             return Ok((best, Ending::Done));
         }
-        if best.floor > options.tolerance * best.scale && best.error < 2.0 * best.floor || stalled == PATIENCE
-        {
+        // Near to rounding there is little to wait for.
+        let patience = if best.error < 100.0 * best.floor { 1 } else { PATIENCE };
+        // Singular values take twenty times as long as a solution: what 500 unknowns do not resolve is given up.
+        let lost = best.condition.is_nan() || best.error.is_infinite() && best.unknowns() > EXAMINED;
+        if stalled >= patience || lost {
             return Ok((best, Ending::Exhausted));
         }
         let worst = last_contributions.iter().copied().fold(0.0, f64::max);

@@ -21,6 +21,8 @@ pub(crate) struct Singular<T> {
     pub(crate) distance_to_spectrum: f64,
     /// What each panel leaves to be wished for.
     pub(crate) contributions: Vec<f64>,
+    /// What of that is rounding.
+    rounding: f64,
 }
 
 /// Singular values up to this part of the largest are looked at.
@@ -58,6 +60,7 @@ pub(crate) fn examine<T: Scalar>(
         defects: Vec::new(),
         distance_to_spectrum: f64::NAN,
         contributions: right.residuals,
+        rounding: 16.0 * f64::EPSILON * system.norm(),
     };
     if nullity > 0 && singular.resolved() {
         let equation = product.equation().adjoint();
@@ -117,7 +120,7 @@ impl<T: Scalar> Singular<T> {
 
     /// Whether the panels are fine enough to tell zero from small.
     pub(crate) fn resolved(&self) -> bool {
-        self.contributions.iter().all(|size| *size <= RESOLVED)
+        self.contributions.iter().all(|size| *size <= RESOLVED.max(self.rounding))
     }
 
     /// I − A bordered by the null functions.
@@ -133,6 +136,10 @@ impl<T: Scalar> Singular<T> {
         };
         let defects =
             |f: &[T]| -> Vec<T> { self.adjoint.iter().map(|psi| inner(f, &refined(psi))).collect() };
+        // Of squares of very large or small numbers nothing would be left.
+        let unit = largest(source).max(f64::MIN_POSITIVE);
+        let scaled: Vec<T> = source.iter().map(|f| *f * (1.0 / unit)).collect();
+        let source = scaled.as_slice();
         let exact = defects(source);
         let smoothed = defects(&refined(&coarsened(source)));
         let allowed = tolerance.max(1e-12) * inner(source, source).modulus().sqrt();
@@ -144,7 +151,7 @@ impl<T: Scalar> Singular<T> {
         let size = self.adjoint.iter().map(|psi| largest(psi)).fold(0.0, f64::max);
         let doubt = change + unseen * size;
         let defect = largest(&exact);
-        self.defects = exact;
+        self.defects = exact.into_iter().map(|defect| defect * unit).collect();
         if defect <= allowed {
             Some(true)
         } else if defect > 10.0 * doubt {

@@ -30,7 +30,7 @@ impl<'a, P, T: Scalar> Function<'a, P, T> {
         self.component(0, x)
     }
 
-    /// Component c at x.
+    /// Component c < [`Self::components`] at x.
     pub fn component(&self, c: usize, x: &P) -> T {
         (self.value)(c, x)
     }

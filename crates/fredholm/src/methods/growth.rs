@@ -129,9 +129,9 @@ fn largest(setup: &Setup) -> usize {
     match (setup.method, setup.space) {
         (Method::Nystrom, _) => 2100,
         (Method::LeastSquares, SpaceKind::Piecewise(_)) => 300,
-        (Method::LeastSquares, _) => 100,
+        (Method::LeastSquares, _) => 64,
         (Method::Galerkin | Method::IteratedGalerkin, SpaceKind::Piecewise(_)) => 600,
-        (Method::Galerkin | Method::IteratedGalerkin, _) => 150,
+        (Method::Galerkin | Method::IteratedGalerkin, _) => 64,
         (_, SpaceKind::Piecewise(_)) => 1100,
         _ => 300,
     }

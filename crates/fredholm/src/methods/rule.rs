@@ -56,7 +56,7 @@ impl RuleKind {
     /// [`EquationError::Method`] where there is no such rule.
     pub fn quadrature(self, a: f64, b: f64, n: usize) -> Result<Quadrature<f64>, EquationError> {
         let parts = self.parts();
-        if n == 0 || !n.is_multiple_of(parts) {
+        if n == 0 || self.nodes(n) == 0 || !n.is_multiple_of(parts) {
             return Err(EquationError::Method(format!(
                 "{self} takes {parts} parts at a time: n = {n} is no multiple"
             )));

@@ -57,6 +57,11 @@ impl<'e, 'a, T: Scalar> Product<'e, 'a, T> {
     ) -> Result<Self, EquationError> {
         let m = equation.components();
         let found = |k: usize| match stated {
+            Some(Class::Algebraic { exponent }) if exponent.is_nan() || exponent <= -1.0 => {
+                Err(EquationError::Method(format!(
+                    "|x − y|^{exponent} cannot be integrated: state an exponent above −1"
+                )))
+            }
             Some(class) => Ok(class),
             None => diagonal::class(equation.kernel(k / m, k % m), change),
         };

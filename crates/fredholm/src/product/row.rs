@@ -18,9 +18,12 @@ const PART: f64 = 30.0;
 /// Halvings of a panel; a jump is then within 2⁻⁵⁰ of the panel.
 const DEPTH: u32 = 50;
 
-/// Where a piece with the diagonal in it is looked at once more, as a part of its length. At the diagonal itself there may
-/// be 0/0.
-const PROBE: f64 = 1e-9;
+/// Where a piece is looked at once more: so far from its ends, and from the diagonal, as a part of its length. At the
+/// diagonal itself there may be 0/0; at an end of the half-line a peak of width 1 at x = 10⁶ is 10⁻¹² wide.
+const PROBE: f64 = 1e-13;
+
+/// Samples of a row after which its pieces are taken as they are, with their errors. A singularity within a peak takes 3000.
+const BUDGET: usize = 100_000;
 
 /// A kernel as a function of t, seen from a fixed t.
 pub(crate) struct Sampler<'k, T> {
@@ -86,6 +89,7 @@ pub(crate) struct RowBuilder<'k, T> {
     sampler: Sampler<'k, T>,
     diagonal: &'k Diagonal,
     depth: u32,
+    spent: usize,
     tau: Vec<f64>,
     values: Vec<T>,
 }
@@ -99,7 +103,7 @@ struct Part<T> {
 impl<'k, T: Scalar> RowBuilder<'k, T> {
     pub(crate) fn new(kernel: &'k dyn LineKernel<T>, change: Change, diagonal: &'k Diagonal, t: f64) -> Self {
         let sampler = Sampler::new(kernel, change, t);
-        Self { sampler, diagonal, depth: 0, tau: Vec::new(), values: Vec::new() }
+        Self { sampler, diagonal, depth: 0, spent: 0, tau: Vec::new(), values: Vec::new() }
     }
 
     /// Adds to `row` the weights of the panel from `low` to `high` at the nodes of `own`.
@@ -173,15 +177,15 @@ impl<'k, T: Scalar> RowBuilder<'k, T> {
         let resolved = self.is_resolved(tail / PART, length);
         // Where halving does not help, it is noise that is left.
         let largest = self.largest();
-        let noise = tail <= self.noise() * largest || tail > 0.7 * above && tail <= 1e-12 * largest;
-        if resolved || noise || depth >= DEPTH {
+        let noise = tail <= self.noise() || tail > 0.7 * above && tail <= 1e-12 * largest;
+        if resolved || noise || depth >= DEPTH || self.spent > BUDGET {
             let mut weights = [T::ZERO; POINTS];
             let terms = self.values.iter().zip(&COARSE.weights);
             weights.iter_mut().zip(terms).for_each(|(weight, (k, w))| *weight = *k * (0.5 * length * w));
             let error = match (resolved, noise) {
                 (true, _) => 0.0,
                 (false, true) => length * tail,
-                (false, false) => length * self.largest(),
+                (false, false) => length * largest.min(10.0 * tail),
             };
             return Ok(Part { weights, error });
         }
@@ -198,7 +202,7 @@ impl<'k, T: Scalar> RowBuilder<'k, T> {
             let tail = self.sample_core(end, core.power)?;
             let rounding = self.rounding_of_core(core.power);
             let resolved = tail <= rounding || self.is_resolved(tail, 1.0);
-            if resolved || depth >= DEPTH {
+            if resolved || depth >= DEPTH || self.spent > BUDGET {
                 let error = rounding + if resolved { 0.0 } else { tail };
                 return Ok(Part { weights: core.gather(&self.values, end < 0.0), error });
             }
@@ -213,23 +217,19 @@ impl<'k, T: Scalar> RowBuilder<'k, T> {
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         self.tau.clear();
         self.tau.extend(rule.nodes.iter().map(|xi| middle + half * xi));
-        // A peak on the diagonal that is much thinner than the piece is between its nodes.
-        let probe = (from <= 0.0 && to >= 0.0).then_some(if to > 0.0 { PROBE * to } else { PROBE * from });
-        self.tau.extend(probe);
+        // A peak on the diagonal that is much thinner than the piece is between its nodes, and so is a break close to an end.
+        self.tau.extend(probes(from, to));
         self.values.resize(self.tau.len(), T::ZERO);
         self.sampler.sample(&self.tau, &mut self.values)?;
-        let seen = probe.map(|tau| (tau, self.values[rule.len()]));
-        self.tau.truncate(rule.len());
-        self.values.truncate(rule.len());
+        self.spent += self.tau.len();
+        let (at, seen) = (self.tau.split_off(rule.len()), self.values.split_off(rule.len()));
         let tail = rule.unresolved(&self.values);
-        Ok(match seen {
-            Some((tau, value)) => {
-                let missed = (value - rule.interpolate(&self.values, (tau - middle) / half)).modulus();
-                let explained = 1e3 * (tail + f64::EPSILON * self.largest().max(value.modulus()));
-                if missed > explained { missed } else { tail }
-            }
-            None => tail,
-        })
+        let missed = at.iter().zip(&seen).map(|(tau, value)| {
+            let missed = (*value - rule.interpolate(&self.values, (tau - middle) / half)).modulus();
+            let explained = 1e3 * (tail + f64::EPSILON * self.largest().max(value.modulus()));
+            if missed > explained { missed } else { 0.0 }
+        });
+        Ok(missed.fold(tail, f64::max))
     }
 
     /// Samples K dτ/ds at τ = core · s^power; the tail is that of K dτ/ds as a function of s.
@@ -267,16 +267,14 @@ impl<'k, T: Scalar> RowBuilder<'k, T> {
         4.0 * f64::EPSILON * self.sampler.x.abs()
     }
 
-    /// The relative rounding of a singular kernel that is not told y − x, on the piece that was sampled last.
+    /// What a kernel that is not told y − x has of rounding, on the piece that was sampled last: its slope times the grain.
     fn noise(&self) -> f64 {
-        match self.diagonal {
-            Diagonal::Singular(_) if !self.sampler.kernel.takes_offset() => {
-                let nearest =
-                    self.sampler.offset.iter().map(|offset| offset.abs()).fold(f64::INFINITY, f64::min);
-                self.grain() / nearest
-            }
-            _ => 0.0,
+        if self.sampler.kernel.takes_offset() {
+            return 0.0;
         }
+        let neighbours = self.values.windows(2).zip(self.sampler.offset.windows(2));
+        let slopes = neighbours.map(|(k, u)| (k[1] - k[0]).modulus() / (u[1] - u[0]).abs());
+        self.grain() * slopes.fold(0.0, f64::max)
     }
 
     fn largest(&self) -> f64 {
@@ -293,6 +291,13 @@ fn joined<T: Scalar>(left: &Part<T>, right: &Part<T>) -> Part<T> {
     let mut weights = [T::ZERO; POINTS];
     COARSE.gather(&left.weights, &right.weights, &mut weights);
     Part { weights, error: left.error + right.error }
+}
+
+/// Just inside either end of a piece, and beside the diagonal if it is within.
+fn probes(from: f64, to: f64) -> impl Iterator<Item = f64> {
+    let inside = PROBE * (to - from);
+    let diagonal = (from < 0.0 && to > 0.0).then_some(inside);
+    [from + inside, to - inside].into_iter().chain(diagonal)
 }
 
 fn ordered(a: f64, b: f64) -> (f64, f64) {
