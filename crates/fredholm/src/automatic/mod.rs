@@ -57,7 +57,7 @@ pub fn solve<'e, 'a: 'e, T: Scalar>(
         return Ok(answer(&plain, attempt, options.tolerance));
     }
     let graded = Arc::new(plain.changed(Change::graded(equation.interval())));
-    let (other, _) = search(&graded, 2, options)?;
+    let (other, _) = search(&graded, 4, options)?;
     // Not less than: NaN is no improvement.
     Ok(if other.error < attempt.error || other.status == Some(Status::NoSolution) {
         answer(&graded, other, options.tolerance)

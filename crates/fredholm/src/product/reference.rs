@@ -17,6 +17,8 @@ pub(crate) struct Reference {
     tail: [Vec<f64>; 3],
     /// Row by row, the basis polynomials at the nodes of [`COARSE`] of the left half and of the right one.
     halves: [Vec<f64>; 2],
+    /// The basis polynomials at −1 and at 1.
+    ends: [Vec<f64>; 2],
 }
 
 /// The nodes of a panel, where the equation is solved.
@@ -46,8 +48,10 @@ impl Reference {
             rule.nodes.iter().zip(&rule.weights).map(term).collect()
         };
         let tail = [functional(n - 1), functional(n - 2), functional(n - 3)];
-        let halves = [Vec::new(), Vec::new()];
-        let mut reference = Self { nodes: rule.nodes, weights: rule.weights, barycentric, tail, halves };
+        let (halves, ends) = ([Vec::new(), Vec::new()], [Vec::new(), Vec::new()]);
+        let mut reference =
+            Self { nodes: rule.nodes, weights: rule.weights, barycentric, tail, halves, ends };
+        reference.ends = [-1.0, 1.0].map(|end| reference.basis_at_all(&[end]));
         reference.halves = [-0.5, 0.5].map(|middle| {
             let nodes = gauss_legendre(POINTS, middle - 0.5, middle + 0.5).nodes;
             reference.basis_at_all(&nodes)
@@ -99,6 +103,11 @@ impl Reference {
             // 1/0: ξ is a node.
             row[j] += weight;
         }
+    }
+
+    /// The polynomial through these values, at −1 and at 1.
+    pub(crate) fn at_ends<T: Scalar>(&self, values: &[T]) -> [T; 2] {
+        [0, 1].map(|end| self.ends[end].iter().zip(values).map(|(l, v)| *v * *l).sum())
     }
 
     /// The polynomial through these values, at ξ.

@@ -222,11 +222,18 @@ impl<'k, T: Scalar> RowBuilder<'k, T> {
         self.values.resize(self.tau.len(), T::ZERO);
         self.sampler.sample(&self.tau, &mut self.values)?;
         self.spent += self.tau.len();
-        let (at, seen) = (self.tau.split_off(rule.len()), self.values.split_off(rule.len()));
+        let mut seen = [T::ZERO; 3];
+        let count = self.values.len() - rule.len();
+        seen[..count].copy_from_slice(&self.values[rule.len()..]);
+        self.tau.truncate(rule.len());
+        self.values.truncate(rule.len());
+        let [left, right] = rule.at_ends(&self.values);
+        let diagonal = if count == 3 { rule.interpolate(&self.values, -middle / half) } else { T::ZERO };
         let tail = rule.unresolved(&self.values);
-        let missed = at.iter().zip(&seen).map(|(tau, value)| {
-            let missed = (*value - rule.interpolate(&self.values, (tau - middle) / half)).modulus();
-            let explained = 1e3 * (tail + f64::EPSILON * self.largest().max(value.modulus()));
+        let largest = self.largest();
+        let missed = seen.iter().zip([left, right, diagonal]).map(|(value, expected)| {
+            let missed = (*value - expected).modulus();
+            let explained = 1e3 * (tail + f64::EPSILON * largest.max(value.modulus()));
             if missed > explained { missed } else { 0.0 }
         });
         Ok(missed.fold(tail, f64::max))
