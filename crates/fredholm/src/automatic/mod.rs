@@ -84,6 +84,10 @@ const PATIENCE: usize = 8;
 /// Unknowns up to which I − A is examined for null functions that are not resolved yet.
 const EXAMINED: usize = 500;
 
+/// The part of the interval below which a panel at an end is short: boundary layers a hundred times as thin as the
+/// interval are resolved by panels.
+const SHORT: f64 = 1.0 / 128.0;
+
 /// Panels whose residual contributes more than this part of the largest contribution are cut.
 const CUT: f64 = 0.05;
 
@@ -127,17 +131,17 @@ fn search<T: Scalar>(
     }
 }
 
-/// Whether a panel at an end of the interval is to be cut that is short already. With a singular kernel the solution
-/// is singular at the ends, unless f is made to prevent it.
+/// Whether the ends of the interval need a change of variable: with a singular kernel the solution is singular there,
+/// unless the equation goes round a circle; otherwise, when a panel at an end is to be cut that is short already.
 fn at_ends<T: Scalar>(product: &Product<'_, '_, T>, panels: &Panels, is_cut: impl Fn(usize) -> bool) -> bool {
-    let short = match product.worst_class() {
-        Class::Logarithmic | Class::Algebraic { .. } => 0.25,
-        // Boundary layers a hundred times as thin as the interval are resolved by panels.
-        _ => 1.0 / 128.0,
-    };
-    let plain = matches!(product.change(), Change::Identity { .. });
+    if !matches!(product.change(), Change::Identity { .. }) {
+        return false;
+    }
+    if matches!(product.worst_class(), Class::Logarithmic | Class::Algebraic { .. }) {
+        return !periodic::is_periodic(product.equation());
+    }
     let rest = (0..panels.len()).any(|panel| !is_cut(panel));
-    plain && rest && [0, panels.len() - 1].iter().any(|end| is_cut(*end) && panels.share(*end) <= short)
+    rest && [0, panels.len() - 1].iter().any(|end| is_cut(*end) && panels.share(*end) <= SHORT)
 }
 
 fn answer<'e, 'a: 'e, T: Scalar>(
