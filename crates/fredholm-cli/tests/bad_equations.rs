@@ -4,7 +4,7 @@
 
 mod run;
 
-use run::{folder, fredholm_with, names, text};
+use run::{Case, folder, fredholm_with, refuse};
 use std::fs;
 
 /// Problem files, by name.
@@ -31,9 +31,6 @@ fn files() -> Vec<(&'static str, String)> {
         ("plane.toml", problem("domain = \"disk 0 0 0\"\n")),
     ]
 }
-
-/// The words after `fredholm`, `|` between them; the exit code; words of the message.
-type Case = (&'static str, i32, &'static [&'static str]);
 
 const FORMULAS: &[Case] = &[
     ("solve|--kernel|sine(x)*y|--source|1", 1, &["--kernel: unknown function `sine`", "`sin`", "| ^^^^"]),
@@ -129,18 +126,7 @@ fn check(name: &str, cases: &[Case]) {
     for (file, text) in files() {
         fs::write(folder.join(file), text).unwrap();
     }
-    let before = names(&folder);
-    for &(words, code, expected) in cases {
-        let output = fredholm_with(&folder, &words.split('|').collect::<Vec<_>>());
-        let message = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(code), "`{words}`: {message}{}", text(&output.stdout));
-        assert!(!message.contains("panicked"), "`{words}`: {message}");
-        assert!(message.starts_with("error: "), "`{words}`: {message}");
-        for part in expected {
-            assert!(message.contains(part), "`{words}`: no `{part}` in: {message}");
-        }
-        assert_eq!(names(&folder), before, "`{words}` left files");
-    }
+    refuse(&folder, cases, |words| fredholm_with(&folder, &words.split('|').collect::<Vec<_>>()));
 }
 
 #[test]

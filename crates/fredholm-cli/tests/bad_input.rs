@@ -4,7 +4,7 @@
 
 mod run;
 
-use run::{folder, fredholm, names, text};
+use run::{Case, folder, fredholm, refuse};
 use std::fs;
 
 /// A lit triangle; what is wrong comes after.
@@ -31,9 +31,6 @@ fn files() -> Vec<(&'static str, String)> {
         ("solver.toml", scene("[solve]\nsolver = \"gauss\"\n")),
     ]
 }
-
-/// The words after `fredholm radiosity`; the exit code; words of the message.
-type Case = (&'static str, i32, &'static [&'static str]);
 
 const SCENES: &[Case] = &[
     ("missing.obj", 1, &["missing.obj", "cannot read"]),
@@ -93,18 +90,9 @@ fn check(name: &str, cases: &[Case]) {
     for (file, text) in files() {
         fs::write(folder.join(file), text).unwrap();
     }
-    let before = names(&folder);
-    for &(words, code, expected) in cases {
-        let output = fredholm(&folder, &format!("radiosity {words}"));
-        let message = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(code), "`{words}`: {message}");
-        assert!(!message.contains("panicked"), "`{words}`: {message}");
-        assert!(message.starts_with("error: "), "`{words}`: {message}");
-        for part in expected {
-            assert!(message.contains(part), "`{words}`: no `{part}` in: {message}");
-        }
-        assert!(code == 2 || message.lines().count() == 1, "`{words}`: {message}");
-        assert_eq!(names(&folder), before, "`{words}` left files");
+    let messages = refuse(&folder, cases, |words| fredholm(&folder, &format!("radiosity {words}")));
+    for (message, (words, code, _)) in messages.iter().zip(cases) {
+        assert!(*code == 2 || message.lines().count() == 1, "`{words}`: {message}");
     }
 }
 

@@ -44,3 +44,24 @@ pub fn names(folder: &Path) -> Vec<String> {
 pub fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
+
+/// The words of a command, its exit code, and words of its message.
+pub type Case = (&'static str, i32, &'static [&'static str]);
+
+/// Every case is refused as it says, without a panic and without a file left behind; returns what was written of each.
+pub fn refuse(folder: &Path, cases: &[Case], run: impl Fn(&str) -> Output) -> Vec<String> {
+    let before = names(folder);
+    let refused = |&(words, code, expected): &Case| {
+        let output = run(words);
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "`{words}`: {message}{}", text(&output.stdout));
+        assert!(!message.contains("panicked"), "`{words}`: {message}");
+        assert!(message.starts_with("error: "), "`{words}`: {message}");
+        for part in expected {
+            assert!(message.contains(part), "`{words}`: no `{part}` in: {message}");
+        }
+        assert_eq!(names(folder), before, "`{words}` left files");
+        message
+    };
+    cases.iter().map(refused).collect()
+}
