@@ -7,6 +7,7 @@
 //! A point *on* a polygon (nearer to its plane than 1e-9 of the scene's extent) is never hidden by it, and a
 //! segment in its plane never cut. Edges belong to polygons, so no light leaks where two of them meet.
 
+pub(crate) mod blockers;
 mod build;
 mod bvh;
 mod count;
@@ -23,7 +24,7 @@ use bvh::Bvh;
 use facet::{Facet, Frame};
 use glam::DVec3;
 use ray::{Blocker, Nearest, Ray};
-use shaft::Shaft;
+use shaft::{Between, Shaft};
 
 /// May s and t see each other?
 #[derive(Clone, Debug)]
@@ -116,6 +117,16 @@ impl Visibility {
         let mut query = Shaft::new(&self.facets, &a, &b);
         self.occluders.walk(&mut query);
         query.clear
+    }
+
+    /// The polygons that are not proved to miss all segments from a to b, added to `found`.
+    pub(crate) fn between(&self, a: &Polygon, b: &Polygon, found: &mut Vec<u32>) {
+        if self.occluders.is_empty() {
+            return;
+        }
+        let (a, b) = (Facet::new(a, &self.frame), Facet::new(b, &self.frame));
+        let shaft = Shaft::new(&self.facets, &a, &b);
+        self.occluders.walk(&mut Between { shaft, found });
     }
 
     /// Whether it is proved that the one polygon `id` cuts every segment from a to b; false means "not known".
