@@ -82,7 +82,8 @@ fn mean_logarithm(e: &Edge, f: &Edge, tolerance: f64) -> (f64, f64) {
     }
     // The inner integral is over the longer edge, so that the outer one has fewer panels.
     let (outer, inner) = if e.length <= f.length { (e, f) } else { (f, e) };
-    let mut panels = Panels { outer, inner, digits: -tolerance.clamp(1e-18, 0.1).ln(), tolerance, missed: 0.0 };
+    let mut panels =
+        Panels { outer, inner, digits: -tolerance.clamp(1e-18, 0.1).ln(), tolerance, missed: 0.0 };
     let sum = panels.integral(0.0, 1.0, DEEPEST);
     (sum / inner.length, panels.missed)
 }
@@ -141,9 +142,8 @@ impl Panels<'_> {
         let count = ((self.digits / (2.0 * rho.max(LEAST_RHO).ln())).ceil() as usize).clamp(2, MOST);
         self.missed += width * rho.max(LEAST_RHO).powi(-2 * count as i32);
         let rule = &RULES[count];
-        let mean = rule.integrate(|x| {
-            self.inner.logarithm(self.outer.start.lerp(self.outer.end, s + width * x))
-        });
+        let mean =
+            rule.integrate(|x| self.inner.logarithm(self.outer.start.lerp(self.outer.end, s + width * x)));
         width * mean
     }
 }

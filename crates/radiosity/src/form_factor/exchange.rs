@@ -76,7 +76,8 @@ impl Unoccluded {
         let mut sum = Exchange::default();
         for part in a.in_front_of(b) {
             for other in b.in_front_of(&part) {
-                let Exchange { value, error } = contour::exchange(part.vertices(), other.vertices(), tolerance);
+                let Exchange { value, error } =
+                    contour::exchange(part.vertices(), other.vertices(), tolerance);
                 sum.value += value;
                 sum.error += error;
             }

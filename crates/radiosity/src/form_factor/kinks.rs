@@ -79,17 +79,24 @@ pub(super) fn kinks(outer: &Polygon, target: &Outline, hiders: &[Hider]) -> Vec<
         }
     };
     for (index, hider) in hiders.iter().enumerate() {
-        for (o, next) in ring(&hider.outline) {
-            let on_plane = height(o).abs() <= rounding && height(next).abs() <= rounding;
-            if !on_plane && !is_inner(hiders, index, o, next) {
+        let outer_edge = |(p, q): (DVec3, DVec3)| {
+            let on_plane = height(p).abs() <= rounding && height(q).abs() <= rounding;
+            !on_plane && !is_inner(hiders, index, p, q)
+        };
+        let count = hider.outline.len();
+        let is_outer: Vec<bool> = ring(&hider.outline).map(outer_edge).collect();
+        for (k, (o, next)) in ring(&hider.outline).enumerate() {
+            if is_outer[k] {
                 for v in target.vertices() {
-                    let [p, q] = projected_edge([o, next], |o| height(o), height(v));
+                    let [p, q] = projected_edge([o, next], height, height(v));
                     add(through(v, p, height), through(v, q, height));
                 }
             }
-            for (v, w) in ring(target) {
-                let [p, q] = projected_edge([v, w], |v| -height(v), -height(o));
-                add(through(p, o, height), through(q, o, height));
+            if is_outer[k] || is_outer[(k + count - 1) % count] {
+                for (v, w) in ring(target) {
+                    let [p, q] = projected_edge([v, w], |v| -height(v), -height(o));
+                    add(through(p, o, height), through(q, o, height));
+                }
             }
         }
         if hider.straddled {
@@ -131,7 +138,11 @@ fn projected_edge(ends: [DVec3; 2], height: impl Fn(DVec3) -> f64, top: f64) -> 
     let limit = top - 1e-3 * (heights[0] - heights[1]).abs();
     let cut = |k: usize| {
         let (h, other) = (heights[k], heights[1 - k]);
-        if h > limit && other < limit { ends[1 - k].lerp(ends[k], (limit - other) / (h - other)) } else { ends[k] }
+        if h > limit && other < limit {
+            ends[1 - k].lerp(ends[k], (limit - other) / (h - other))
+        } else {
+            ends[k]
+        }
     };
     [cut(0), cut(1)]
 }

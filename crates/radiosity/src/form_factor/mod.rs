@@ -11,8 +11,8 @@
 
 pub mod contour;
 pub mod exchange;
-pub mod lambert;
 mod kinks;
+pub mod lambert;
 mod outline;
 pub mod pairs;
 mod partly;

@@ -32,12 +32,19 @@ impl Pair {
         let mut pair = Self::of_degrees(5, 1);
         pair.nodes.retain(|node| node.1 != 0.0);
         let nearer = |node: &[f64; 3]| node.iter().any(|x| *x > 0.7);
-        let square = pair.nodes.iter().find(|(x, ..)| nearer(x)).map_or(1.0, |(x, ..)| x.iter().map(|x| x * x).sum());
+        let square =
+            pair.nodes.iter().find(|(x, ..)| nearer(x)).map_or(1.0, |(x, ..)| x.iter().map(|x| x * x).sum());
         // w + 3v = 1 and w/9 + v Σλ² = 1/6.
         let outer = (1.0 / 6.0 - 1.0 / 9.0) / (square - 1.0 / 3.0);
         for (x, _, lower) in &mut pair.nodes {
             let central = x.iter().all(|x| (x - 1.0 / 3.0).abs() < 1e-9);
-            *lower = if central { 1.0 - 3.0 * outer } else if nearer(x) { outer } else { 0.0 };
+            *lower = if central {
+                1.0 - 3.0 * outer
+            } else if nearer(x) {
+                outer
+            } else {
+                0.0
+            };
         }
         pair
     }
@@ -93,6 +100,9 @@ impl Ord for Part {
 /// Most cells that a pair is cut into.
 const MOST: usize = 20_000;
 
+/// With more cells than that it is left to their errors which are cut further.
+const MANY: usize = 40;
+
 /// A cell is cut in any case by a kink that is no nearer to a corner than this part of it. A kink nearer than that may hide
 /// from all nodes: what grows from it on grows at most as fast as from nothing to the whole over the cell.
 const EVEN: f64 = 0.03;
@@ -108,9 +118,15 @@ impl Partly<'_> {
         // What is going to be cut in any case is not integrated before.
         let mut cells: Vec<Cell> = self.outer.triangles().collect();
         for kink in &kinks {
+            if cells.len() > MANY {
+                break;
+            }
             let whole = std::mem::take(&mut cells);
             let cuts = |cell: &Cell| kink.cuts(cell, self.outer.normal()) > EVEN;
-            cells = whole.into_iter().flat_map(|cell| if cuts(&cell) { kink.divide(&cell) } else { vec![cell] }).collect();
+            cells = whole
+                .into_iter()
+                .flat_map(|cell| if cuts(&cell) { kink.divide(&cell) } else { vec![cell] })
+                .collect();
         }
         for cell in cells {
             let part = self.part(cell, &kinks, &shadows, &mut pieces);

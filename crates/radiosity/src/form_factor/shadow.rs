@@ -60,7 +60,8 @@ impl Shadows<'_> {
         while !rest.is_empty() {
             let (group, others) = first_group(rest);
             // What these hide is taken away from what later ones could hide; after the last ones there is none.
-            sum += if others.is_empty() { self.inside(group, x, pieces) } else { self.taken(group, x, pieces) };
+            sum +=
+                if others.is_empty() { self.inside(group, x, pieces) } else { self.taken(group, x, pieces) };
             rest = others;
         }
         sum

@@ -41,10 +41,11 @@ impl Blockers {
         for plane in mesh.planes() {
             let body = blockers.body_of_face[plane[0] as usize];
             let whole = mesh.outline(&plane).map(|outline| mesh.without_straight_corners(outline));
-            let parts = match whole.filter(|outline| mesh.is_convex(outline, faces[plane[0] as usize].normal())) {
-                Some(outline) => fan(&outline),
-                None => plane.iter().map(|&face| mesh.corners[face as usize].clone()).collect(),
-            };
+            let parts =
+                match whole.filter(|outline| mesh.is_convex(outline, faces[plane[0] as usize].normal())) {
+                    Some(outline) => fan(&outline),
+                    None => plane.iter().map(|&face| mesh.corners[face as usize].clone()).collect(),
+                };
             blockers.body.resize(blockers.body.len() + parts.len(), body);
             outlines.extend(parts);
         }
@@ -106,13 +107,8 @@ struct Mesh<'a> {
 
 impl<'a> Mesh<'a> {
     fn new(faces: &'a [Polygon]) -> Self {
-        let mut mesh = Self {
-            faces,
-            vertices: Vec::new(),
-            corners: Vec::new(),
-            owners: HashMap::new(),
-            on_plane: 0.0,
-        };
+        let mut mesh =
+            Self { faces, vertices: Vec::new(), corners: Vec::new(), owners: HashMap::new(), on_plane: 0.0 };
         let mut known = HashMap::new();
         for (face, k) in faces.iter().zip(0..) {
             let number = |v: &DVec3| {
@@ -202,7 +198,8 @@ impl<'a> Mesh<'a> {
                 return None;
             }
         }
-        let start = plane.iter().flat_map(|&face| &self.corners[face as usize]).find(|v| next.contains_key(v))?;
+        let start =
+            plane.iter().flat_map(|&face| &self.corners[face as usize]).find(|v| next.contains_key(v))?;
         let mut outline = vec![*start];
         let mut at = *next.get(start)?;
         while at != *start {
@@ -217,7 +214,8 @@ impl<'a> Mesh<'a> {
         let at = |k: usize| self.vertices[outline[k % n] as usize];
         let turns = |k: usize| {
             let (before, after) = (at(k) - at(k + n - 1), at(k + 1) - at(k));
-            before.cross(after).length() > STRAIGHT * before.length() * after.length() || before.dot(after) < 0.0
+            before.cross(after).length() > STRAIGHT * before.length() * after.length()
+                || before.dot(after) < 0.0
         };
         (0..n).filter(|&k| turns(k)).map(|k| outline[k]).collect()
     }
