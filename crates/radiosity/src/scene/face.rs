@@ -26,6 +26,14 @@ pub struct Face {
 }
 
 impl Face {
+    /// The name and, in parentheses, the place.
+    pub(super) fn label(&self) -> String {
+        match &self.place {
+            Some(place) => format!("`{}` ({place})", self.name),
+            None => format!("`{}`", self.name),
+        }
+    }
+
     /// The faces of a scene that was built by hand: each polygon is one.
     pub fn of_polygons<V>(scene: &Scene<V>) -> Vec<Self> {
         let in_order = scene.surfaces.iter().enumerate().flat_map(|(index, surface)| {

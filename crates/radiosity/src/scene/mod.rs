@@ -6,13 +6,15 @@
 //! the same is checked: see [`Problem`]; all tolerances are relative to the size of a face, so that a scene in
 //! millimetres behaves like one in kilometres.
 //!
-//! What a file calls a face may be several polygons of the scene: [`Loaded::faces`] tells which.
+//! What a file calls a face may be several polygons of the scene: [`Loaded::faces`] tells which. How the faces hang
+//! together is looked at by [`examine()`].
 
 mod camera;
 mod check;
 mod cornell;
 mod cut;
 mod error;
+mod examine;
 mod face;
 mod file;
 mod load;
@@ -29,6 +31,7 @@ pub use camera::Camera;
 pub use cornell::{cornell_box, cornell_box_spectral};
 pub use cut::cut;
 pub use error::{Error, Place, Problem, Warning};
+pub use examine::{Component, Defect, Finding, Report, examine};
 pub use face::Face;
 pub use load::{Loaded, SolveOptions, load, load_unlit};
 pub use vs3::Control;

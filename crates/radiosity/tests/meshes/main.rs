@@ -1,9 +1,10 @@
-//! Mesh files: what is read from each format, what is refused or told, and that no file, however broken,
-//! does worse than to be refused.
+//! Mesh files: what is read from each format, what is refused or told, what is found in a mesh, and that no file,
+//! however broken, does worse than to be refused.
 
 #![allow(clippy::unwrap_used, reason = "in a test a panic is the message, in its helpers too")]
 
 mod errors;
+mod examined;
 mod files;
 mod mutations;
 mod view3d;

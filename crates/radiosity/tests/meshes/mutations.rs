@@ -4,7 +4,7 @@
 use crate::folder;
 use crate::write::{cube, every_way, triangulated};
 use radiosity::polygon::Polygon;
-use radiosity::scene::load_unlit;
+use radiosity::scene::{examine, load_unlit};
 use std::path::Path;
 
 /// Numbers as they come, from a seed.
@@ -120,6 +120,7 @@ fn accepts(path: &Path, case: &str) -> bool {
             assert!(polygons.iter().all(is_finite), "{case}");
             let faces: usize = loaded.faces.iter().map(|face| face.polygons.len()).sum();
             assert_eq!(faces, polygons.len(), "{case}");
+            let _ = examine(&loaded.scene, &loaded.faces).to_string();
             true
         }
         Err(error) => {

@@ -47,6 +47,15 @@ pub fn triangulated(mesh: &Mesh) -> Mesh {
     Mesh { vertices: mesh.vertices.clone(), faces: mesh.faces.iter().flat_map(halves).collect() }
 }
 
+/// The faces of both.
+pub fn together(a: &Mesh, b: &Mesh) -> Mesh {
+    let shifted = b.faces.iter().map(|face| face.iter().map(|corner| corner + a.vertices.len()).collect());
+    Mesh {
+        vertices: [&a.vertices[..], &b.vertices].concat(),
+        faces: a.faces.iter().cloned().chain(shifted).collect(),
+    }
+}
+
 fn numbers(face: &[usize], first: usize) -> String {
     face.iter().map(|corner| format!(" {}", corner + first)).collect()
 }
