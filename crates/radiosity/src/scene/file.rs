@@ -3,7 +3,7 @@
 //! ```toml
 //! name = "Office"                       # optional; else the file's name
 //! unit = "mm"                           # of the meshes and of every length here: mm, cm, m, in, ft, or metres as a number
-//! meshes = ["room.obj", "desk.obj"]     # beside this file
+//! meshes = ["room.obj", "desk.stl"]     # beside this file: .obj, .stl, .ply, .vs3
 //!
 //! [materials.white]                     # a material by its name in the meshes; what is not given stays as it is there
 //! reflectance = 0.8                     # or [red, green, blue]
@@ -26,7 +26,7 @@
 use super::error::{Error, Place, Problem};
 use super::load::{Loaded, SolveOptions, read_mesh};
 use super::material::{Located, Material};
-use super::mesh::{self, Mesh};
+use super::mesh::{self, Assembled, Mesh};
 use super::{Camera, Scene, text};
 use fredholm::value::{Rgb, Spectrum};
 use glam::DVec3;
@@ -49,14 +49,12 @@ pub(super) fn load(file: &Path) -> Result<Loaded, Error> {
     mesh::check_overrides_are_used(&meshes, places)?;
     let overrides = source.overrides(&entry.materials)?;
     let camera = entry.camera.map(|camera| source.camera(&camera, metres)).transpose()?;
-    let scene = Scene {
-        name: entry.name.unwrap_or_else(|| super::load::file_name(file)),
-        surfaces: mesh::surfaces(meshes, &overrides)?,
-        camera,
-    };
+    let Assembled { surfaces, faces, warnings } = mesh::assemble(meshes, &overrides)?;
+    let name = entry.name.unwrap_or_else(|| super::load::file_name(file));
+    let scene = Scene { name, surfaces, camera };
     let mut solve = entry.solve;
     solve.patch_size = solve.patch_size.map(|size| size * metres);
-    Ok(Loaded { scene, solve })
+    Ok(Loaded { scene, solve, faces, warnings, control: None })
 }
 
 #[derive(Deserialize)]
@@ -176,7 +174,7 @@ impl Source<'_> {
 
     fn meshes(&self, names: &Spanned<Vec<Spanned<String>>>, metres: f64) -> Result<Vec<Mesh>, Error> {
         if names.get_ref().is_empty() {
-            let problem = Problem::Malformed("`meshes` is empty; name at least one .obj file".to_owned());
+            let problem = Problem::Malformed("`meshes` is empty; name at least one mesh".to_owned());
             return Err(problem.at(self.place(&names.span())));
         }
         let read = |name: &Spanned<String>| {

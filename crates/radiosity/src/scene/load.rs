@@ -1,8 +1,10 @@
 //! The door of room 1: a path becomes a scene, by the reader that its extension names.
 
-use super::error::{Error, Place, Problem};
-use super::mesh::{self, Mesh};
-use super::{Scene, file, obj};
+use super::error::{Error, Place, Problem, Warning};
+use super::face::Face;
+use super::mesh::{self, Assembled, Mesh};
+use super::vs3::Control;
+use super::{Scene, file, obj, ply, stl, vs3};
 use fredholm::value::Rgb;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -15,6 +17,12 @@ pub struct Loaded {
     pub scene: Scene<Rgb>,
     /// What the file says in place of the defaults.
     pub solve: SolveOptions,
+    /// What the files call a face, and the polygons of [`Scene::polygons`] that it was cut in; in their order.
+    pub faces: Vec<Face>,
+    /// What the readers passed over or left out, to be told.
+    pub warnings: Vec<Warning>,
+    /// How a View3D file asks for its view factors; `None` for any other.
+    pub control: Option<Control>,
 }
 
 /// How a scene asks to be solved; `None` where it does not say.
@@ -42,25 +50,41 @@ pub struct SolveOptions {
 ///
 /// When a file cannot be read or understood, or the scene is none that can be solved: see [`Problem`].
 pub fn load(path: &Path) -> Result<Loaded, Error> {
+    let loaded = load_unlit(path)?;
+    loaded.scene.check_light().map_err(|problem| problem.at(Place::file(path)))?;
+    Ok(loaded)
+}
+
+/// Reads a scene as [`load`] does, and takes one in which nothing emits: a view factor is a matter of shape alone,
+/// and most mesh files know of no light.
+///
+/// # Errors
+///
+/// Those of [`load`], but for [`Problem::NoLight`].
+pub fn load_unlit(path: &Path) -> Result<Loaded, Error> {
     let loaded = match extension(path).as_str() {
         "toml" => file::load(path)?,
         _ => bare_mesh(path)?,
     };
-    loaded.scene.check().map_err(|problem| problem.at(Place::file(path)))?;
+    loaded.scene.check_shape().map_err(|problem| problem.at(Place::file(path)))?;
     Ok(loaded)
 }
 
 fn bare_mesh(path: &Path) -> Result<Loaded, Error> {
-    let mesh = read_mesh(path, 1.0, &Place::file(path))?;
-    let surfaces = mesh::surfaces(vec![mesh], &BTreeMap::new())?;
-    let scene = Scene { name: file_name(path), surfaces, camera: None };
-    Ok(Loaded { scene, solve: SolveOptions::default() })
+    let mut mesh = read_mesh(path, 1.0, &Place::file(path))?;
+    let (name, control) = (mesh.title.take().unwrap_or_else(|| file_name(path)), mesh.control.take());
+    let Assembled { surfaces, faces, warnings } = mesh::assemble(vec![mesh], &BTreeMap::new())?;
+    let scene = Scene { name, surfaces, camera: None };
+    Ok(Loaded { scene, solve: SolveOptions::default(), faces, warnings, control })
 }
 
 /// The mesh of a file, by its extension; lengths in the file are so many `metres`.
 pub(super) fn read_mesh(path: &Path, metres: f64, named_at: &Place) -> Result<Mesh, Error> {
     match extension(path).as_str() {
         "obj" => obj::read(path, metres, named_at),
+        "stl" => stl::read(path, metres, named_at),
+        "ply" => ply::read(path, metres, named_at),
+        "vs3" => vs3::read(path, metres, named_at),
         other => Err(Problem::UnknownFormat(other.to_owned()).at(named_at.clone())),
     }
 }
