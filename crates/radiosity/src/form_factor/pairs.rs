@@ -154,10 +154,10 @@ impl<'a> Pairs<'a> {
     }
 }
 
-/// How many times the tolerance exchanges in full sight may be said to err by, relative to themselves, and those in part.
-/// The second would be 0.8 if all of a row were seen in part; at 3.2 some rows of rooms full of boxes go beyond the tolerance.
-const IN_SIGHT: f64 = 0.2;
-const PARTLY: f64 = 2.0;
+/// How many times the tolerance exchanges in full sight may be said to err by, relative to themselves, and those in part
+/// relative to what they were in full sight.
+const IN_SIGHT: f64 = 0.1;
+const PARTLY: f64 = 0.8;
 
 fn bounds(polygon: &Polygon) -> [DVec3; 2] {
     let start = [DVec3::INFINITY, DVec3::NEG_INFINITY];
