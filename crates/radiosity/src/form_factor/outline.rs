@@ -72,13 +72,13 @@ impl Outline {
 
     /// Its vertices as they are seen from a point.
     pub fn seen_from(&self, point: DVec3) -> Self {
-        let mut moved = *self;
-        for k in 0..ROOM {
-            moved.x[k] -= point.x;
-            moved.y[k] -= point.y;
-            moved.z[k] -= point.z;
+        // One array at a time: copied as a whole and then moved it would go through memory twice.
+        Self {
+            x: self.x.map(|x| x - point.x),
+            y: self.y.map(|y| y - point.y),
+            z: self.z.map(|z| z - point.z),
+            count: self.count,
         }
-        moved
     }
 
     /// Lambert's form factor from the origin, which is in front of it and below no vertex, for the normal n there.

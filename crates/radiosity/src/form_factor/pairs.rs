@@ -6,8 +6,8 @@ use super::partly::{Pair, Partly};
 use super::shadow::Hider;
 use crate::polygon::Polygon;
 use crate::view_factors::Exchange;
-use crate::visibility::Visibility;
 use crate::visibility::blockers::Blockers;
+use crate::visibility::{End, Visibility};
 use glam::DVec3;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
@@ -21,6 +21,7 @@ pub struct Pairs<'a> {
     unoccluded: Unoccluded,
     blockers: Blockers,
     visibility: Visibility,
+    ends: Vec<End>,
     rules: Pair,
     counts: [AtomicU64; 3],
 }
@@ -48,6 +49,7 @@ impl<'a> Pairs<'a> {
             tolerance,
             unoccluded: Unoccluded::new(faces, IN_SIGHT * tolerance),
             blockers,
+            ends: faces.iter().map(|face| visibility.end(face)).collect(),
             visibility,
             rules: Pair::new(tolerance),
             counts: Default::default(),
@@ -66,19 +68,20 @@ impl<'a> Pairs<'a> {
         if i == j || whole.value == 0.0 {
             return whole;
         }
-        let (a, b) = (&self.faces[i], &self.faces[j]);
+        let (a, b) = (&self.ends[i], &self.ends[j]);
         let mut found = Vec::new();
         self.visibility.between(a, b, &mut found);
         if found.is_empty() {
             self.counts[0].fetch_add(1, Relaxed);
             return whole;
         }
-        if found.iter().any(|&id| self.visibility.certainly_blocks(id, a, b)) {
+        if found.iter().any(|&id| self.visibility.blocks(id, a, b)) {
             self.counts[1].fetch_add(1, Relaxed);
             return Exchange::default();
         }
         self.counts[2].fetch_add(1, Relaxed);
-        let smaller = a.area() < b.area() || (a.area() == b.area() && i < j);
+        let areas = [i, j].map(|k| self.faces[k].area());
+        let smaller = areas[0] < areas[1] || (areas[0] == areas[1] && i < j);
         let (outer, target) = if smaller { (i, j) } else { (j, i) };
         self.partly(outer, target, whole, &found)
     }

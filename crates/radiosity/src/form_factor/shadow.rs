@@ -51,7 +51,7 @@ impl Shadows<'_> {
         let target = self.target.seen_from(x);
         let (group, others) = first_group(self.hiders);
         if others.is_empty() {
-            return self.inside(group, x, &[target]);
+            return self.inside(group, x, std::slice::from_ref(&target));
         }
         pieces.clear();
         pieces.push(target);
