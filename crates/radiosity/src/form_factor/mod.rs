@@ -11,7 +11,7 @@
 
 pub mod exchange;
 pub mod lambert;
-mod sampled;
+pub(crate) mod sampled;
 
 use crate::kernel::{Lambertian, SurfacePoint};
 use crate::patches::{Patches, Strip};
