@@ -8,14 +8,11 @@ use super::degree::MOST;
 use super::rules::collapsed;
 use super::space::{is_triangle, point};
 use crate::polygon::Polygon;
-use fredholm::quadrature::gauss_legendre;
+use fredholm::quadrature::{Quadrature, gauss_legendre};
 use glam::DVec3;
 
 /// What is integrated: a block of a matrix, a row for each test function.
 pub(super) type Block = [[f64; MOST]; MOST];
-
-/// Points each way of a cell's rule.
-const POINTS: usize = 4;
 
 /// The value at a node: test functions and potentials, of which the block is the product.
 pub(super) type Sample = ([f64; MOST], [f64; MOST]);
@@ -30,8 +27,7 @@ pub(super) struct Adaptive<'a, F, N> {
     pub sample: F,
     /// How large the error of a block is.
     pub norm: N,
-    nodes: [f64; POINTS],
-    weights: [f64; POINTS],
+    rule: Quadrature<[f64; 2]>,
 }
 
 /// A part of the unit square.
@@ -42,11 +38,9 @@ struct Cell {
 }
 
 impl<'a, F: Fn(DVec3) -> Sample, N: Fn(&Block) -> f64> Adaptive<'a, F, N> {
-    pub fn new(polygon: &'a Polygon, sample: F, norm: N) -> Self {
-        let rule = gauss_legendre(POINTS, 0.0, 1.0);
-        let (nodes, weights) =
-            (std::array::from_fn(|p| rule.nodes[p]), std::array::from_fn(|p| rule.weights[p]));
-        Self { polygon, sample, norm, nodes, weights }
+    /// For test functions of a degree: n points each way are exact up to 2n − 1, of which a test function takes `degree`.
+    pub fn new(degree: usize, polygon: &'a Polygon, sample: F, norm: N) -> Self {
+        Self { polygon, sample, norm, rule: gauss_legendre(degree + 4, 0.0, 1.0).squared() }
     }
 
     /// The integral, with an error of about `tolerance(its first estimate)`.
@@ -81,15 +75,12 @@ impl<'a, F: Fn(DVec3) -> Sample, N: Fn(&Block) -> f64> Adaptive<'a, F, N> {
     fn estimate(&self, cell: Cell) -> Block {
         let mut block = [[0.0; MOST]; MOST];
         let size = [0, 1].map(|axis| cell.high[axis] - cell.low[axis]);
-        for p in 0..POINTS {
-            for q in 0..POINTS {
-                let at = [cell.low[0] + size[0] * self.nodes[p], cell.low[1] + size[1] * self.nodes[q]];
-                let (x, density) = self.node(at);
-                let (tests, potentials) = (self.sample)(x);
-                let weight = self.weights[p] * self.weights[q] * size[0] * size[1] * density;
-                for (row, test) in block.iter_mut().zip(tests) {
-                    row.iter_mut().zip(potentials).for_each(|(entry, u)| *entry += weight * test * u);
-                }
+        for (&[s, t], weight) in self.rule.nodes.iter().zip(&self.rule.weights) {
+            let (x, density) = self.node([cell.low[0] + size[0] * s, cell.low[1] + size[1] * t]);
+            let (tests, potentials) = (self.sample)(x);
+            let weight = weight * size[0] * size[1] * density;
+            for (row, test) in block.iter_mut().zip(tests) {
+                row.iter_mut().zip(potentials).for_each(|(entry, u)| *entry += weight * test * u);
             }
         }
         block

@@ -108,6 +108,6 @@ impl<'a> Exchange<'a> {
             let least = SMALL * space.areas[outer] * space.areas[inner] / self.area;
             self.tolerance * exchange.max(least) / space.areas[outer]
         };
-        Adaptive::new(piece, sample, norm).integrate(tolerance)
+        Adaptive::new(space.degree().order(), piece, sample, norm).integrate(tolerance)
     }
 }

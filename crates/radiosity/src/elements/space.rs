@@ -150,7 +150,7 @@ impl<'a> Space<'a> {
             let norm = |block: &Block| {
                 block.iter().zip(weights).map(|(row, m)| row[0].abs() / m).fold(0.0, f64::max)
             };
-            let block = Adaptive::new(polygon, sample, norm).integrate(|_| tolerance);
+            let block = Adaptive::new(self.degree.order(), polygon, sample, norm).integrate(|_| tolerance);
             block.iter().zip(weights).map(|(row, m)| row[0] / m).collect::<Vec<_>>()
         };
         (0..self.polygons.len()).into_par_iter().flat_map(element).collect()
