@@ -263,19 +263,19 @@ fn patches_that_share_an_edge_or_a_corner_or_leave_a_gap_have_their_blocks() {
     let mut pairs: Vec<(String, [Polygon; 2], i32)> = Vec::new();
     for degrees in [30.0, 90.0, 150.0] {
         for triangles in [false, true] {
-            pairs.push((format!("{degrees}°, triangles: {triangles}"), hinged(degrees, triangles), 8));
+            pairs.push((format!("{degrees}°, triangles: {triangles}"), hinged(degrees, triangles), 7));
         }
     }
-    pairs.push(("corner".into(), [square(), corner], 8));
+    pairs.push(("corner".into(), [square(), corner], 6));
     pairs.push(("gap".into(), [square(), lid(1e-3)], 6));
     for (name, [a, b], levels) in pairs {
         let patches = pair(a, b);
         let visibility = radiosity::visibility::Visibility::new(&patches.polygons);
         for degree in [Degree::Constant, Degree::Quadratic] {
             let space = Space::new(&patches.polygons, degree);
-            let expected = block(&space, levels, 6);
+            let expected = block(&space, levels, 8);
             let total: f64 = expected.iter().flatten().sum();
-            for accuracy in [1e-3, 1e-6] {
+            for accuracy in [1e-3, 1e-5] {
                 let start = std::time::Instant::now();
                 let coupling = Elements::galerkin(&space, &patches, &visibility, accuracy);
                 let mut rows = vec![0.0; space.range(0).len() * space.dim()];
@@ -317,7 +317,8 @@ fn frustum() -> Vec<Polygon> {
 }
 
 fn tetrahedron() -> Vec<Polygon> {
-    let [a, b, c, d] = [p(1.0, 1.0, 1.0), p(1.0, -1.0, -1.0), p(-1.0, 1.0, -1.0), p(-1.0, -1.0, 1.0)];
+    let [a, b, c, d] =
+        [p(1.0, 1.0, 1.0), p(1.0, -1.0, -1.0), p(-1.0, 1.0, -1.0), p(-1.0, -1.0, 1.0)].map(|v| 0.4 * v);
     [[a, c, b], [a, b, d], [a, d, c], [b, c, d]].map(|[a, b, c]| Polygon::triangle(a, b, c)).to_vec()
 }
 
@@ -345,7 +346,7 @@ fn constants_have_the_form_factors_of_patches() {
 
 #[test]
 fn integral_is_that_of_any_smooth_function() {
-    let polar = Polar::new(1e-12);
+    let polar = Polar::new(1e-12, 2);
     for polygon in shapes() {
         let x = above(&polygon, [0.3, 0.6], 1e-3, p(0.3, 0.3, 0.0));
         let g = |y: DVec3| (y.x - 0.3 * y.y + y.z).exp();
@@ -374,7 +375,7 @@ const RHO: f64 = 0.6;
 
 impl Known {
     fn new(walls: Vec<Polygon>, tolerance: f64) -> Self {
-        Self { walls, polar: Polar::new(tolerance) }
+        Self { walls, polar: Polar::new(tolerance, 2) }
     }
 
     fn radiosity(&self, x: DVec3) -> f64 {
@@ -466,7 +467,7 @@ fn assert_orders(walls: &[Polygon], cases: &[(Degree, [f64; 2], f64)], doubled: 
             let k = degree.order() as f64;
             assert!((found[0] - (k + 1.0)).abs() < 0.3, "maximum");
             assert!((found[1] - (k + 1.0)).abs() < 0.25, "mean square");
-            assert!((found[3] - (k + 1.5)).abs() < 0.3, "iterated, mean square");
+            assert!(found[3] > k + 1.25, "iterated, mean square");
             assert!(!doubled || found[4] > 2.0 * k + 1.6, "iterated, away from edges");
         }
     }
@@ -484,7 +485,7 @@ fn rates_on_a_cube() {
 
 #[test]
 fn rates_on_a_tetrahedron() {
-    let edge = 8_f64.sqrt();
+    let edge = 0.4 * 8_f64.sqrt();
     let cases = [
         (Degree::Constant, [edge / 4.0, edge / 8.0], 1e-5),
         (Degree::Linear, [edge / 3.0, edge / 6.0], 1e-5),

@@ -45,7 +45,12 @@ impl Front {
 impl<'a> Moments<'a> {
     /// The moments with an error of about `tolerance`, relative to the form factor from the point to the patch.
     pub fn new(space: &'a Space<'a>, tolerance: f64) -> Self {
-        Self { space, rules: Rules::new(space.degree()), polar: Polar::new(tolerance), tolerance }
+        Self {
+            space,
+            rules: Rules::new(space.degree()),
+            polar: Polar::new(tolerance, space.degree().order()),
+            tolerance,
+        }
     }
 
     /// The space.

@@ -3,35 +3,46 @@
 //!
 //! K is nearly singular where x is near P: at the distance δ from x, its scale is δ. Along a ray from x* the distance to
 //! x never shrinks, (x* − x) · (y − x*) ≥ 0, so in s the kernel is singular no nearer to 0 than c = δ/|e − x*|, and not
-//! in the right half plane; s = c sinh v takes that to a distance of at least asinh 1 = 0.88 from the range of v, whatever δ is.
-//! Along an edge t = t* ± δ_e sinh v does the same about the point nearest to x. Gauss's rule on pieces of about that
-//! length converges at a rate that depends on nothing: not on the distance, the shape or the angles. All points lie in
-//! P, all weights are positive, and a distance of 10⁻⁶ takes some 12 pieces along s where 1 takes one.
+//! in the right half plane; s = c sinh v takes that to a distance of at least asinh 1 = 0.88 from the range of v and π/2 from
+//! the rest of its axis, whatever δ is. Along an edge t = t* + δ_e sinh v does the same about the point nearest to x. So
+//! Gauss's rule converges at a rate that is told by the length of the range alone: not by the distance, the shape or the
+//! angles. All points lie in P, all weights are positive, and the range grows like −ln δ.
 
 use crate::polygon::Polygon;
 use fredholm::quadrature::{Quadrature, gauss_legendre};
 use glam::DVec3;
+use std::f64::consts::PI;
 
-/// The rule about the nearest point, of so many Gauss points a piece.
+/// The rule about the nearest point.
 #[derive(Clone, Debug)]
 pub struct Polar {
-    rule: Quadrature<f64>,
+    /// Gauss's rules of 1, 2, … points on 0 … 1.
+    rules: Vec<Quadrature<f64>>,
+    /// −ln of the tolerance.
+    digits: f64,
+    /// Points more than the kernel alone would take.
+    more: usize,
 }
 
-/// Pieces in v are at most this long. The error of n points is about (PIECE_RATE)^{−2n}: at 0.88 + ½ from the middle of a piece
-/// of half length ½, ρ = 2.76 + √(2.76² − 1) = 5.3.
-const PIECE: f64 = 1.0;
-const PIECE_RATE: f64 = 5.3;
+/// A range of v is cut in pieces no longer than this: longer ones take hardly fewer points in all.
+const PIECE: f64 = 3.0;
 
 /// Nothing is gained beyond: rounding.
-const MOST_POINTS: usize = 12;
+const MOST_POINTS: usize = 24;
 
 impl Polar {
-    /// The rule whose error is about `tolerance` of the integral of |K g|, for a g that is a polynomial of degree ≤ 4.
-    pub fn new(tolerance: f64) -> Self {
-        // One more than the kernel alone would take: the rule has g, the Jacobian and cosθ cosθ′ to integrate too.
-        let points = (-tolerance.ln() / (2.0 * PIECE_RATE.ln())).ceil() as usize + 1;
-        Self { rule: gauss_legendre(points.clamp(3, MOST_POINTS), 0.0, 1.0) }
+    /// The rule whose error is about `tolerance` of ∫ |K g|, for a g that is smooth as a polynomial of a `degree` is.
+    pub fn new(tolerance: f64, degree: usize) -> Self {
+        let rules = (1..=MOST_POINTS).map(|n| gauss_legendre(n, 0.0, 1.0)).collect();
+        Self { rules, digits: -tolerance.ln(), more: 1 + degree.div_ceil(2) }
+    }
+
+    /// The rule for a piece of a range of v: n points err by ρ^{−2n} when ρ is the sum of the half axes of the ellipse
+    /// about the piece that reaches the nearest singularity, 0.88 before its beginning or π/2 beside it.
+    fn rule(&self, length: f64) -> &Quadrature<f64> {
+        let rate = (PI / length).asinh().min((1.0 + 1.76 / length).acosh());
+        let points = (0.5 * self.digits / rate).ceil() as usize + self.more;
+        &self.rules[points.min(MOST_POINTS) - 1]
     }
 
     /// Calls `visit(y − x, weight)` at the nodes y on a convex polygon of a rule for x, a point not on it.
@@ -45,7 +56,7 @@ impl Polar {
             if doubled > 0.0 {
                 self.along_edge(a, b, |end, weight| {
                     let ray = end - nearest;
-                    self.graded(distance / ray.length(), 1.0, |s, w| {
+                    self.graded(distance / ray.length(), [0.0, 1.0], |s, w| {
                         visit(nearest + s * ray, doubled * weight * s * w);
                     });
                 });
@@ -58,21 +69,22 @@ impl Polar {
         let edge = b - a;
         let foot = nearest_parameter(a, edge);
         let scale = (a + foot * edge).length() / edge.length();
-        self.graded(scale, 1.0 - foot, |t, w| visit(a + (foot + t) * edge, w));
-        self.graded(scale, foot, |t, w| visit(a + (foot - t) * edge, w));
+        self.graded(scale, [-foot, 1.0 - foot], |t, w| visit(a + (foot + t) * edge, w));
     }
 
-    /// ∫_0^`end` by t = `scale` sinh v, on pieces of v.
-    fn graded(&self, scale: f64, end: f64, mut visit: impl FnMut(f64, f64)) {
-        if end <= 0.0 {
+    /// ∫ over a range of t by t = `scale` sinh v, on pieces of v.
+    fn graded(&self, scale: f64, range: [f64; 2], mut visit: impl FnMut(f64, f64)) {
+        // Where the point itself lies on P, or a ray has no length, there is nothing to integrate.
+        if !(scale > 0.0 && scale.is_finite()) {
             return;
         }
-        let range = (end / scale).asinh();
-        let pieces = (range / PIECE).ceil().max(1.0);
-        let length = range / pieces;
+        let [from, to] = range.map(|t| (t / scale).asinh());
+        let pieces = ((to - from) / PIECE).ceil().max(1.0);
+        let length = (to - from) / pieces;
+        let rule = self.rule(length);
         for piece in 0..pieces as usize {
-            for (node, weight) in self.rule.nodes.iter().zip(&self.rule.weights) {
-                let v = (piece as f64 + node) * length;
+            for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
+                let v = from + (piece as f64 + node) * length;
                 visit(scale * v.sinh(), weight * length * scale * v.cosh());
             }
         }
@@ -81,7 +93,8 @@ impl Polar {
 
 /// The parameter in 0 … 1 of the point nearest to the origin on the segment from a along `edge`.
 fn nearest_parameter(a: DVec3, edge: DVec3) -> f64 {
-    (-a.dot(edge) / edge.length_squared()).clamp(0.0, 1.0)
+    let square = edge.length_squared();
+    if square > 0.0 { (-a.dot(edge) / square).clamp(0.0, 1.0) } else { 0.0 }
 }
 
 /// The point of a convex polygon nearest to the origin.
