@@ -31,6 +31,7 @@
 //! | 3 | [`visibility`] | V(x, y): may two points see each other? |
 //! | 4 | [`kernel`] | K(x, y) = cosθ cosθ′ V / (π r²) |
 //! | 5 | [`form_factor`] | F_ij: Nyström, collocation, Galerkin |
+//! | | [`elements`] | the same on P_k and Q_k: coefficients for each patch |
 //! | 6 | [`solve`](mod@solve) | u = f + ρ ⊙ (F u), by the crate `fredholm`; [`closure`] checks it |
 //! | 7 | [`reconstruct`] | from patches to the light at any point |
 //! | 8 | [`render`], [`export`] | pictures and files |
@@ -39,6 +40,7 @@
 //! from both sides.
 
 pub mod closure;
+pub mod elements;
 pub mod export;
 pub mod form_factor;
 pub mod kernel;

@@ -294,7 +294,7 @@ fn barycentric(triangle: &Polygon, point: DVec3) -> DVec2 {
 
 /// (s, t) with point = bilinear(s, t) on a planar quadrilateral, by Newton's method in its plane: the map is
 /// affine up to the twist a − b + c − d, so few steps reach rounding on any convex quadrilateral.
-fn inverse_bilinear(quadrilateral: &Polygon, point: DVec3) -> DVec2 {
+pub(crate) fn inverse_bilinear(quadrilateral: &Polygon, point: DVec3) -> DVec2 {
     let &[a, b, c, d] = quadrilateral.vertices() else { return barycentric(quadrilateral, point) };
     let (x, y) = plane_axes(quadrilateral);
     let flat = |p: DVec3| DVec2::new((p - a).dot(x), (p - a).dot(y));

@@ -1,18 +1,22 @@
 //! Room 6: B = E + ρ ⊙ (F B), gathered or shot. A page: every algorithm here is the general theory's.
 
 use crate::closure::Closure;
+use crate::elements::{Elements, Space};
 use crate::form_factor::{FormFactors, point_to_point};
+use crate::kernel::Lambertian;
 use crate::patches::Patches;
 use crate::visibility::Visibility;
 use fredholm::direct::Direct;
-use fredholm::discretize::Coupling;
+use fredholm::discretize::{Coupling, Nystrom};
 use fredholm::krylov::Gmres;
 use fredholm::operator::{Columns, Dense, NotFinite, OnTheFly, Operator, Rows};
+use fredholm::quadrature::Quadrature;
 use fredholm::relax::{
     GaussSeidel, Jacobi, Outcome, Relaxation, Report, Southwell, Stop, SuccessiveApproximation, relax,
 };
 use fredholm::system::{System, SystemError, error_bound, norm_bound, row_sums};
 use fredholm::value::{Value, max_norm};
+use rayon::prelude::*;
 use std::time::Instant;
 
 /// How the equation becomes numbers: what F_ij is.
@@ -82,12 +86,14 @@ impl Default for Options {
 pub enum SolveError {
     /// The matrix would not fit.
     #[error(
-        "{patches} patches make a matrix of {} MB, and {} MB are free: take larger patches, or the southwell solver, which stores none",
-        needed >> 20, available >> 20
+        "{patches} {} make a matrix of {} MB, and {} MB are free: take larger patches, or the southwell solver, which stores none",
+        if *elements { "coefficients of patches" } else { "patches" }, needed >> 20, available >> 20
     )]
     Memory {
-        /// The number of patches.
+        /// The number of patches, or of coefficients of all of them.
         patches: usize,
+        /// Whether it is the coefficients that are counted.
+        elements: bool,
         /// Bytes of the matrix.
         needed: u64,
         /// Bytes that it may take.
@@ -131,7 +137,7 @@ impl<V: Value> Observer<V> for Unobserved {
     }
 }
 
-/// The radiosity of each patch, and how well it is known.
+/// The radiosity of each patch, or each coefficient of a space on the patches, and how well it is known.
 #[derive(Clone, Debug)]
 pub struct Solution<V> {
     /// B = E + ρ ⊙ (F u) for the solver's last u, W/m²: the residual is added to u, as the progressive method does.
@@ -168,7 +174,8 @@ pub fn solve<V: Value>(
     observer: &mut dyn Observer<V>,
 ) -> Result<Solution<V>, SolveError> {
     let accuracy = options.accuracy;
-    let run = Run { patches, visibility, options };
+    let Patches { emission, reflectance, areas, .. } = patches;
+    let run = Run { patches, visibility, options, emission, reflectance, weights: areas, space: None };
     match options.method {
         Method::Nystrom => {
             let coupling = point_to_point(patches, visibility);
@@ -185,10 +192,44 @@ pub fn solve<V: Value>(
     }
 }
 
+/// Solves it for the coefficients of a space on the patches: what [`Solution`] has one of for each patch, it has one of for
+/// each coefficient.
+///
+/// Nyström's method takes the space's nodes and weights for its rule. Columns, which the southwell solver shoots, are not
+/// found in blocks: it takes as many times longer as an element has coefficients.
+pub fn solve_elements<V: Value>(
+    space: &Space<'_>,
+    patches: &Patches<V>,
+    visibility: &Visibility,
+    options: &Options,
+    observer: &mut dyn Observer<V>,
+) -> Result<Solution<V>, SolveError> {
+    let (emission, reflectance) = (&space.spread(&patches.emission), &space.spread(&patches.reflectance));
+    let weights = space.weights();
+    let run = Run { patches, visibility, options, emission, reflectance, weights, space: Some(space) };
+    let coupling = match options.method {
+        Method::Nystrom => {
+            let nodes = space.interpolate(|node| *node);
+            let rule = Quadrature { nodes, weights: weights.to_vec() };
+            let coupling = Nystrom::new(Lambertian::new(visibility), rule);
+            return run.keep(&coupling, &|| coupling.kernel().rays.total(), observer);
+        }
+        Method::Collocation => Elements::collocation(space, patches, visibility, options.accuracy),
+        Method::Galerkin => Elements::galerkin(space, patches, visibility, options.accuracy),
+    };
+    run.keep(&coupling, &|| coupling.rays(), observer)
+}
+
 struct Run<'a, V> {
     patches: &'a Patches<V>,
     visibility: &'a Visibility,
     options: &'a Options,
+    /// E, ρ and the area that it stands for, of each unknown.
+    emission: &'a [V],
+    reflectance: &'a [V],
+    weights: &'a [f64],
+    /// Whose coefficients the unknowns are, if they are not the patches' own.
+    space: Option<&'a Space<'a>>,
 }
 
 impl<V: Value> Run<'_, V> {
@@ -215,15 +256,13 @@ impl<V: Value> Run<'_, V> {
     ) -> Result<Solution<V>, SolveError> {
         let start = Instant::now();
         let n = operator.dim();
-        let system = System::new(&self.patches.emission, &self.patches.reflectance, operator)?;
-        let southwell = Southwell::new(system, &self.patches.areas);
+        let system = System::new(self.emission, self.reflectance, operator)?;
+        let southwell = Southwell::new(system, self.weights);
         let mut southwell = if self.options.ambient { southwell.with_ambient() } else { southwell };
         let report = self.relax(&mut southwell, observer)?;
-        let checked = match self.options.method {
-            // Factors between points may add up to anything: the bound needs every row.
-            Method::Nystrom => spread(n, n),
-            _ => spread(n, SAMPLED_ROWS),
-        };
+        // Factors between points may add up to anything, and those of polynomials have signs: the bound needs every row.
+        let every = self.options.method == Method::Nystrom || self.space.is_some();
+        let checked = spread(n, if every { n } else { SAMPLED_ROWS });
         let computed = ((report.residuals.len() + checked.len()) * n) as u64;
         let solution = self.judge(system, southwell.gathered().to_vec(), report, &checked);
         Ok(Solution { form_factors: computed, solve_seconds: start.elapsed().as_secs_f64(), ..solution })
@@ -241,7 +280,7 @@ impl<V: Value> Run<'_, V> {
         let matrix = Dense::<f32>::assemble(coupling, |entries| observer.assembled(entries))?;
         let assembly_seconds = start.elapsed().as_secs_f64();
         let start = Instant::now();
-        let system = System::new(&self.patches.emission, &self.patches.reflectance, &matrix)?;
+        let system = System::new(self.emission, self.reflectance, &matrix)?;
         let mut relaxation: Box<dyn Relaxation<V> + '_> = match self.options.solver {
             Solver::Jacobi => Box::new(Jacobi::new(system)),
             Solver::Successive => Box::new(SuccessiveApproximation::new(system)),
@@ -249,7 +288,7 @@ impl<V: Value> Run<'_, V> {
             Solver::Direct => Box::new(Direct::new(system)),
             Solver::GaussSeidel => Box::new(GaussSeidel::new(system)),
             // Not asked for here, and right on a stored matrix too.
-            Solver::Southwell => Box::new(Southwell::new(system, &self.patches.areas)),
+            Solver::Southwell => Box::new(Southwell::new(system, self.weights)),
         };
         let report = self.relax(&mut *relaxation, observer)?;
         let mut irradiance = vec![V::splat(0.0); n];
@@ -273,7 +312,7 @@ impl<V: Value> Run<'_, V> {
         };
         let (needed, available) = ((n as u64).pow(2) * bytes, self.options.memory);
         if needed > available {
-            return Err(SolveError::Memory { patches: n, needed, available });
+            return Err(SolveError::Memory { patches: n, elements: self.space.is_some(), needed, available });
         }
         Ok(())
     }
@@ -283,7 +322,7 @@ impl<V: Value> Run<'_, V> {
         relaxation: &mut dyn Relaxation<V>,
         observer: &mut dyn Observer<V>,
     ) -> Result<Report, SolveError> {
-        let target = self.options.tolerance * max_norm(&self.patches.emission);
+        let target = self.options.tolerance * max_norm(self.emission);
         // A second factorisation would find the same.
         let sweeps = if self.options.solver == Solver::Direct { 1 } else { self.options.iterations };
         let stop = Stop { residual: target, sweeps };
@@ -314,20 +353,43 @@ impl<V: Value> Run<'_, V> {
             let largest = sums.iter().fold(1.0, |a: f64, b| a.max(*b)) + 3.0 * self.options.accuracy;
             max_norm(system.coefficient) * largest
         };
-        let rows: Vec<(usize, f64)> = checked.iter().copied().zip(sums).collect();
+        let rows = self.sums_by_patch(system.operator, checked, sums);
         Solution {
             radiosity,
             irradiance,
             error_bound: error_bound(report.residual, norm),
             report,
             norm,
-            rows: rows.len(),
+            rows: checked.len(),
             closure: Closure::test(self.patches, self.visibility, &rows),
             form_factors: 0,
             rays: 0,
             assembly_seconds: 0.0,
             solve_seconds: 0.0,
         }
+    }
+
+    /// Σ_j F_ij of the rows checked, from Σ_j |F_ij|: one for each patch, the furthest from 1 of those of its coefficients.
+    fn sums_by_patch<F: Rows>(
+        &self,
+        operator: &F,
+        checked: &[usize],
+        of_magnitudes: Vec<f64>,
+    ) -> Vec<(usize, f64)> {
+        let Some(space) = self.space else { return checked.iter().copied().zip(of_magnitudes).collect() };
+        let sum =
+            |buffer: &mut Vec<f64>, &i: &usize| (space.element_of(i), operator.row(i, buffer).iter().sum());
+        let sums: Vec<(usize, f64)> = checked.par_iter().map_init(Vec::new, sum).collect();
+        let mut worst: Vec<(usize, f64)> = Vec::new();
+        for (patch, sum) in sums {
+            match worst.last_mut() {
+                Some(last) if last.0 == patch => {
+                    last.1 = if (sum - 1.0_f64).abs() > (last.1 - 1.0).abs() { sum } else { last.1 };
+                }
+                _ => worst.push((patch, sum)),
+            }
+        }
+        worst
     }
 }
 

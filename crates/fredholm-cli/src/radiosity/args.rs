@@ -2,6 +2,7 @@
 
 use crate::args::{at_least_one, number, positive, with_extension};
 use clap::{Args, ValueEnum};
+use radiosity::elements::Degree;
 use radiosity::solve;
 use std::path::PathBuf;
 
@@ -26,6 +27,7 @@ must be there:
 Examples:
   fredholm radiosity                                  the Cornell box, as cornell-box.png
   fredholm radiosity room.toml --patch-size 0.1       a scene of yours, in patches of 10 cm
+  fredholm radiosity --space p1 --patch-count 1000    linear on each patch: fewer of them do
   fredholm radiosity --false-colour -o map.png        radiosity in W/m² as a map
   fredholm radiosity --json - | jq .closure_defect    the numbers alone
   fredholm radiosity --solver southwell --ambient --frames shots    the light, shot by shot
@@ -61,6 +63,10 @@ pub struct Radiosity {
     /// How the equation becomes numbers [default: galerkin]
     #[arg(long, value_enum, help_heading = "Equation")]
     pub method: Option<Method>,
+
+    /// What light is on each patch: a constant, or a polynomial with coefficients of its own
+    #[arg(long, value_enum, default_value_t = Space::P0, help_heading = "Equation")]
+    pub space: Space,
 
     /// How the numbers are solved for [default: gauss-seidel]
     #[arg(long, value_enum, help_heading = "Equation")]
@@ -159,6 +165,28 @@ pub enum Method {
     Collocation,
     /// Point to point: the kernel at the centres, with the areas as a quadrature
     Nystrom,
+}
+
+/// [`Degree`], with words for the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Space {
+    /// Constant
+    P0,
+    /// Linear on triangles (P1), bilinear on quadrilaterals (Q1)
+    P1,
+    /// Quadratic on triangles (P2), biquadratic on quadrilaterals (Q2)
+    P2,
+}
+
+impl Space {
+    /// The degree of the polynomials, where they are more than constants.
+    pub fn degree(self) -> Option<Degree> {
+        match self {
+            Self::P0 => None,
+            Self::P1 => Some(Degree::Linear),
+            Self::P2 => Some(Degree::Quadratic),
+        }
+    }
 }
 
 /// [`solve::Solver`], with words for the command line.

@@ -8,7 +8,6 @@ use super::settings::Settings;
 use crate::output::Folder;
 use anyhow::Result;
 use fredholm::neumann::estimated_rest;
-use fredholm::relax::Relaxation;
 use fredholm::value::{Rgb, Value};
 use radiosity::patches::Patches;
 use radiosity::render::{Colour, Exposure, Picture, Preview};
@@ -55,15 +54,15 @@ impl Frames {
         }
     }
 
-    /// Writes the frame of an iteration, if it is its turn.
+    /// Writes the frame of an iteration, from the radiosity of each patch, if it is its turn.
     pub fn record<V: Colour>(
         &mut self,
         iteration: usize,
         patches: &Patches<V>,
-        relaxation: &dyn Relaxation<V>,
+        radiosity: impl FnOnce() -> Vec<V>,
     ) -> Result<()> {
         match iteration.is_multiple_of(self.every) {
-            true => self.write(iteration, patches, &relaxation.preview()),
+            true => self.write(iteration, patches, &radiosity()),
             false => Ok(()),
         }
     }

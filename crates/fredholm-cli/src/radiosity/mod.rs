@@ -28,10 +28,11 @@ use crate::output::{Output, clear_on_interrupt};
 use anyhow::{Context, Result, bail};
 use fredholm::relax::Outcome;
 use fredholm::value::Value;
+use radiosity::elements::Space;
 use radiosity::export::Field;
 use radiosity::render::Colour;
 use radiosity::scene::{Scene, SolveOptions, cornell_box, cornell_box_spectral, load};
-use radiosity::solve::{Solution, solve};
+use radiosity::solve::{Solution, solve, solve_elements};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -71,9 +72,14 @@ fn walk<V: Colour>(
 
     let domain = Domain::new(scene, settings.size(scene), &mut seconds)?;
     let frames = frames.map(|folder| Frames::new(folder, args, &settings, &domain));
-    let mut watcher = Watcher::new(&settings, &domain.patches, frames);
-    let options = settings.options(domain.patches.len());
-    let solution = solve(&domain.patches, &domain.visibility, &options, &mut watcher)?;
+    let Domain { patches: mesh, visibility, .. } = &domain;
+    let space = settings.space.degree().map(|degree| Space::new(&mesh.polygons, degree));
+    let mut watcher = Watcher::new(&settings, mesh, space.as_ref(), frames);
+    let options = settings.options(space.as_ref().map_or(mesh.len(), Space::dim));
+    let solution = match &space {
+        None => solve(mesh, visibility, &options, &mut watcher)?,
+        Some(space) => means(space, solve_elements(space, mesh, visibility, &options, &mut watcher)?),
+    };
     let mut files = watcher.finish(&solution, &mut seconds)?;
 
     if let Some(output) = picture {
@@ -85,9 +91,18 @@ fn walk<V: Colour>(
     }
     files.extend(json.as_ref().and_then(Json::file));
     seconds.total = start.elapsed().as_secs_f64();
-    let report = Report::new(&domain, &settings, &solution, seconds, files);
+    let report = Report::new(&domain, &settings, space.as_ref(), &solution, seconds, files);
     json::tell(json, &report, &table(&report))?;
     Ok(if solution.report.outcome == Outcome::Converged { Ending::Converged } else { Ending::NotConverged })
+}
+
+/// The solution by its means over patches: what pictures, tables and files show.
+fn means<V: Value>(space: &Space<'_>, solution: Solution<V>) -> Solution<V> {
+    Solution {
+        radiosity: space.means(&solution.radiosity),
+        irradiance: space.means(&solution.irradiance),
+        ..solution
+    }
 }
 
 fn write_patches<V: Value>(

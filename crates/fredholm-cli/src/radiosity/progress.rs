@@ -9,6 +9,7 @@ use crate::terminal::bar;
 use anyhow::Result;
 use fredholm::relax::Relaxation;
 use indicatif::ProgressBar;
+use radiosity::elements::Space;
 use radiosity::patches::Patches;
 use radiosity::render::Colour;
 use radiosity::solve::{Observer, Solution};
@@ -20,6 +21,7 @@ const STEPS: f64 = 1000.0;
 /// Watches the solver: moves its bars and records its frames.
 pub struct Watcher<'a, V> {
     patches: &'a Patches<V>,
+    space: Option<&'a Space<'a>>,
     assembly: ProgressBar,
     relaxation: ProgressBar,
     first: Option<f64>,
@@ -28,14 +30,20 @@ pub struct Watcher<'a, V> {
 }
 
 impl<'a, V: Colour> Watcher<'a, V> {
-    /// A watcher over these patches.
-    pub fn new(settings: &Settings, patches: &'a Patches<V>, frames: Option<Frames>) -> Self {
-        let n = patches.len() as u64;
+    /// A watcher over these patches, or the coefficients of a space on them.
+    pub fn new(
+        settings: &Settings,
+        patches: &'a Patches<V>,
+        space: Option<&'a Space<'a>>,
+        frames: Option<Frames>,
+    ) -> Self {
+        let n = space.map_or(patches.len(), Space::dim) as u64;
         // Reciprocity, A_i F_ij = A_j F_ji, halves the work where patches are tested as wholes or both as points.
         let entries = if settings.method == Method::Collocation { n * n } else { n * (n + 1) / 2 };
         let relaxation = bar("relaxation", STEPS as u64).with_message(name(&settings.solver));
         Self {
             patches,
+            space,
             assembly: bar("form factors", entries),
             relaxation,
             first: None,
@@ -75,7 +83,11 @@ impl<V: Colour> Observer<V> for Watcher<'_, V> {
             self.relaxation.set_message(format!("iteration {iteration}, residual {norm:.1e} W/m²"));
         }
         let Some(frames) = &mut self.frames else { return true };
-        self.failed = frames.record(iteration, self.patches, relaxation).err();
+        let shown = || match self.space {
+            Some(space) => space.means(&relaxation.preview()),
+            None => relaxation.preview(),
+        };
+        self.failed = frames.record(iteration, self.patches, shown).err();
         self.failed.is_none()
     }
 }

@@ -8,6 +8,7 @@ use crate::args::name;
 use fredholm::relax::Outcome;
 use fredholm::value::Value;
 use radiosity::closure::Closure;
+use radiosity::elements::Space;
 use radiosity::patches::Patches;
 use radiosity::solve::Solution;
 use serde::Serialize;
@@ -22,6 +23,10 @@ pub struct Report {
     pub patches: usize,
     /// The longest that their edges may be, in metres.
     pub patch_size: f64,
+    /// The polynomials on each patch: `p0`, `p1` or `p2`.
+    pub space: String,
+    /// Their coefficients, all together: as many as patches for `p0`.
+    pub unknowns: usize,
     /// The discretisation.
     pub method: String,
     /// The solver.
@@ -103,11 +108,13 @@ impl Report {
     pub fn new<V: Value>(
         domain: &Domain<'_, V>,
         settings: &Settings,
+        space: Option<&Space<'_>>,
         solution: &Solution<V>,
         seconds: Seconds,
         files: Vec<PathBuf>,
     ) -> Self {
-        let options = settings.options(domain.patches.len());
+        let unknowns = space.map_or(domain.patches.len(), Space::dim);
+        let options = settings.options(unknowns);
         let brightest = fredholm::value::max_norm(&domain.patches.emission);
         let (closure_defect, closure_rows, escaping) = match solution.closure {
             Closure::Open { escaping } => (None, None, Some(escaping)),
@@ -118,6 +125,8 @@ impl Report {
             scene: domain.scene.name.clone(),
             patches: domain.patches.len(),
             patch_size: settings.size(domain.scene),
+            space: name(&settings.space),
+            unknowns,
             method: name(&settings.method),
             solver: name(&settings.solver),
             outcome: match solution.report.outcome {

@@ -1,6 +1,6 @@
 //! How to solve: the command line's word before the scene file's, the scene file's before the default.
 
-use super::args::{Method, Radiosity, Solver};
+use super::args::{Method, Radiosity, Solver, Space};
 use super::memory;
 use crate::args::name;
 use anyhow::{Result, bail};
@@ -22,6 +22,8 @@ const SWEEPS: usize = 1000;
 pub struct Settings {
     /// The discretisation.
     pub method: Method,
+    /// What light is on each patch.
+    pub space: Space,
     /// The solver.
     pub solver: Solver,
     /// The largest side of a patch, in metres; `None` for a number of patches.
@@ -42,6 +44,7 @@ impl Settings {
         let size = args.patch_size.or(wishes.patch_size.filter(|_| args.patch_count.is_none()));
         let settings = Self {
             method: args.method.or(method).unwrap_or(Method::Galerkin),
+            space: args.space,
             solver: args.solver.or(solver).unwrap_or(Solver::GaussSeidel),
             patch_size: size,
             patch_count: args.patch_count.unwrap_or(PATCHES),
@@ -64,9 +67,9 @@ impl Settings {
         self.patch_size.unwrap_or_else(|| size_for_count(scene, self.patch_count))
     }
 
-    /// What the solver is told, for so many patches.
-    pub fn options(&self, patches: usize) -> Options {
-        let sweep = if self.solver == Solver::Southwell { patches } else { 1 };
+    /// What the solver is told, for so many unknowns.
+    pub fn options(&self, unknowns: usize) -> Options {
+        let sweep = if self.solver == Solver::Southwell { unknowns } else { 1 };
         Options {
             method: self.method.into(),
             solver: self.solver.into(),

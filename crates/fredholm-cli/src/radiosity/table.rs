@@ -22,6 +22,9 @@ fn lines(report: &Report) -> Vec<(&'static str, String)> {
         ("error bound", error_bound(report)),
         ("closure", closure(report)),
     ];
+    if report.unknowns > report.patches {
+        lines.insert(1, ("space", space(report)));
+    }
     if let Some(bytes) = report.peak_memory_bytes {
         lines.push(("memory", format!("{} MB at most", grouped(bytes >> 20))));
     }
@@ -34,6 +37,12 @@ fn lines(report: &Report) -> Vec<(&'static str, String)> {
     lines.push(("time", time(&report.seconds)));
     lines.push(("written", written(report)));
     lines
+}
+
+fn space(report: &Report) -> String {
+    let k = report.space.trim_start_matches('p');
+    let count = grouped(report.unknowns as u64);
+    format!("{count} coefficients, P{k} on triangles and Q{k} on quadrilaterals")
 }
 
 fn iterations(report: &Report) -> String {
@@ -58,7 +67,7 @@ fn residual(report: &Report) -> String {
 
 fn error_bound(report: &Report) -> String {
     match report.error_bound {
-        Some(bound) if report.norm_rows < report.patches => {
+        Some(bound) if report.norm_rows < report.unknowns => {
             let Report { norm, norm_rows, .. } = report;
             format!("{bound:.1e} W/m² from the solver, if ‖ρF‖ ≤ {norm:.3} as in {norm_rows} rows")
         }

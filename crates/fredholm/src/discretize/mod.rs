@@ -24,6 +24,17 @@ pub trait Coupling: Sync {
         row.iter_mut().enumerate().for_each(|(k, entry)| *entry = self.entry(i, from + k));
     }
 
+    /// How many rows, from row i on, cost little more than one: those of the unknowns of one element, whose first is i.
+    fn band(&self, _i: usize) -> usize {
+        1
+    }
+
+    /// The rows `first` … from column `from` on, as many as `rows` holds, one after another.
+    fn rows(&self, first: usize, from: usize, rows: &mut [f64]) {
+        let width = self.dim() - from;
+        rows.chunks_mut(width.max(1)).enumerate().for_each(|(k, row)| self.row(first + k, from, row));
+    }
+
     /// Positive weights w with w_i F_ij = w_j F_ji, when F is self-adjoint for the product Σ w_i u_i v_i.
     /// Radiosity calls it reciprocity, with the patches' areas for weights. Assembly then computes half of F.
     fn reciprocity(&self) -> Option<&[f64]> {
@@ -40,6 +51,12 @@ impl<C: Coupling> Coupling for &C {
     }
     fn row(&self, i: usize, from: usize, row: &mut [f64]) {
         (**self).row(i, from, row);
+    }
+    fn band(&self, i: usize) -> usize {
+        (**self).band(i)
+    }
+    fn rows(&self, first: usize, from: usize, rows: &mut [f64]) {
+        (**self).rows(first, from, rows);
     }
     fn reciprocity(&self) -> Option<&[f64]> {
         (**self).reciprocity()

@@ -57,41 +57,49 @@ impl<T: Entry> Dense<T> {
     pub fn assemble<C: Coupling>(coupling: &C, progress: impl Fn(usize) + Sync) -> Result<Self, NotFinite> {
         let dim = coupling.dim();
         let mut matrix = Self { dim, entries: vec![T::default(); dim * dim] };
-        match coupling.reciprocity() {
-            None => matrix.fill(coupling, progress)?,
-            Some(weights) => {
-                matrix.fill_upper(coupling, progress)?;
-                matrix.mirror(weights);
-            }
+        let weights = coupling.reciprocity();
+        matrix.fill(coupling, weights.is_some(), progress)?;
+        if let Some(weights) = weights {
+            matrix.mirror(weights);
         }
         Ok(matrix)
     }
 
-    fn fill(&mut self, coupling: &impl Coupling, progress: impl Fn(usize) + Sync) -> Result<(), NotFinite> {
-        let rows = self.entries.par_chunks_mut(self.dim.max(1)).enumerate();
-        rows.try_for_each_init(
-            || vec![0.0; coupling.dim()],
-            |buffer, (i, row)| {
-                coupling.row(i, 0, buffer);
-                progress(buffer.len());
-                store(buffer, row, i, 0)
+    /// All entries, or those of the diagonal and right of it, by bands of rows that are found together.
+    fn fill(
+        &mut self,
+        coupling: &impl Coupling,
+        upper: bool,
+        progress: impl Fn(usize) + Sync,
+    ) -> Result<(), NotFinite> {
+        let dim = self.dim;
+        self.bands(coupling).into_par_iter().with_max_len(1).try_for_each_init(
+            Vec::new,
+            |buffer, (first, band)| {
+                let from = if upper { first } else { 0 };
+                let width = dim - from;
+                buffer.resize(band.len() / dim * width, 0.0);
+                coupling.rows(first, from, buffer);
+                for (k, (numbers, row)) in buffer.chunks(width).zip(band.chunks_mut(dim)).enumerate() {
+                    let left = if upper { k } else { 0 };
+                    progress(width - left);
+                    store(&numbers[left..], &mut row[from + left..], first + k, from + left)?;
+                }
+                Ok(())
             },
         )
     }
 
-    /// The diagonal and what lies right of it.
-    fn fill_upper(
-        &mut self,
-        coupling: &impl Coupling,
-        progress: impl Fn(usize) + Sync,
-    ) -> Result<(), NotFinite> {
-        let rows = self.entries.par_chunks_mut(self.dim.max(1)).enumerate();
-        rows.with_max_len(1).try_for_each_init(Vec::new, |buffer, (i, row)| {
-            buffer.resize(coupling.dim() - i, 0.0);
-            coupling.row(i, i, buffer);
-            progress(buffer.len());
-            store(buffer, &mut row[i..], i, i)
-        })
+    /// The places of the rows, cut into the coupling's bands, each with its first row.
+    fn bands(&mut self, coupling: &impl Coupling) -> Vec<(usize, &mut [T])> {
+        let (mut bands, mut first, mut rest) = (Vec::new(), 0, self.entries.as_mut_slice());
+        while first < self.dim {
+            let rows = coupling.band(first).clamp(1, self.dim - first);
+            let (band, below) = rest.split_at_mut(rows * self.dim);
+            bands.push((first, band));
+            (first, rest) = (first + rows, below);
+        }
+        bands
     }
 
     /// F_ij = F_ji w_j / w_i for j < i.

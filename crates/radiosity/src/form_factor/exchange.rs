@@ -98,7 +98,7 @@ fn reach(constant: f64, order: i32, tolerance: f64) -> f64 {
 }
 
 /// A factor below this part of the mean one, A_j/ΣA, is not worth a relative tolerance.
-const SMALL: f64 = 0.1;
+pub(crate) const SMALL: f64 = 0.1;
 
 impl<const GROUPS: usize> Nodes<GROUPS> {
     /// The nodes of a rule of 4 × GROUPS points.
@@ -169,14 +169,14 @@ fn product<const GROUPS: usize>(
 
 /// Where a polygon lies in respect to the plane of another.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Side {
+pub(crate) enum Side {
     Before,
     Behind,
     Across,
 }
 
 /// Where b lies as seen from a. What is within rounding of the plane counts for either side.
-pub(super) fn side_of(a: &Polygon, b: &Polygon) -> Side {
+pub(crate) fn side_of(a: &Polygon, b: &Polygon) -> Side {
     let origin = a.vertices()[0];
     let (mut low, mut high, mut reach) = (f64::INFINITY, f64::NEG_INFINITY, 0.0_f64);
     for v in b.vertices() {

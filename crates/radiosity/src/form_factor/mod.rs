@@ -16,7 +16,7 @@ pub mod lambert;
 mod outline;
 pub mod pairs;
 mod partly;
-mod sampled;
+pub(crate) mod sampled;
 mod shadow;
 
 use crate::kernel::{Lambertian, SurfacePoint};

@@ -12,7 +12,7 @@ use glam::DVec3;
 
 /// What two polygons see of each other, as far as it is certain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Sight {
+pub(crate) enum Sight {
     /// Nothing is between them.
     Clear,
     /// One polygon hides all of one from all of the other.
@@ -22,7 +22,7 @@ pub(super) enum Sight {
 }
 
 /// What a and b certainly see of each other, at the cost of one ray at most.
-pub(super) fn sight(visibility: &Visibility, a: &Polygon, b: &Polygon, rays: &RayCount) -> Sight {
+pub(crate) fn sight(visibility: &Visibility, a: &Polygon, b: &Polygon, rays: &RayCount) -> Sight {
     if visibility.certainly_clear(a, b) {
         return Sight::Clear;
     }
@@ -56,6 +56,29 @@ pub(super) fn visible_part(
     rays: &RayCount,
     start: impl Fn(f64, f64) -> (DVec3, f64),
 ) -> f64 {
+    visible_part_seen(visibility, (a, b), pair, weight, rays, start, |_| ())
+}
+
+/// A ray between two patches.
+pub(crate) struct Sighting {
+    /// Where it starts and where it ends.
+    pub ends: [DVec3; 2],
+    /// K times the areas that the ends stand for.
+    pub weight: f64,
+    /// Whether nothing is between them.
+    pub clear: bool,
+}
+
+/// The same, with `seen` told of every ray.
+pub(crate) fn visible_part_seen(
+    visibility: &Visibility,
+    (a, b): (&Polygon, &Polygon),
+    pair: (usize, usize),
+    weight: f64,
+    rays: &RayCount,
+    start: impl Fn(f64, f64) -> (DVec3, f64),
+    mut seen: impl FnMut(&Sighting),
+) -> f64 {
     let mut look = Look::default();
     let mut sequence = Sequence::new(pair);
     let mut draw = |look: &mut Look, points: u32| {
@@ -69,7 +92,9 @@ pub(super) fn visible_part(
             );
             // Infinite where the two points coincide, on patches that touch: one point of many.
             if k > 0.0 && k.is_finite() {
-                look.add(k * density * b.density(u, v), visibility.unoccluded(x, y));
+                let (weight, clear) = (k * density * b.density(u, v), visibility.unoccluded(x, y));
+                look.add(weight, clear);
+                seen(&Sighting { ends: [x, y], weight, clear });
             }
         }
     };

@@ -1,0 +1,117 @@
+//! ∫_P Φ(x) dx for a Φ with many components, on cells that are cut in two in the direction in which that changes most.
+//!
+//! Where P shares an edge with another patch, the potential of that patch is bounded on P but bends like w ln w at the
+//! distance w from the edge. The edges of P are sides of the square that its cells divide, so cells are cut towards an edge
+//! and not along it: l levels take l cells, where quarters would take 2^l.
+
+use super::degree::MOST;
+use super::rules::collapsed;
+use super::space::{is_triangle, point};
+use crate::polygon::Polygon;
+use fredholm::quadrature::{Quadrature, gauss_legendre};
+use glam::DVec3;
+
+/// What is integrated: a block of a matrix, a row for each test function.
+pub(super) type Block = [[f64; MOST]; MOST];
+
+/// The value at a node: test functions and potentials, of which the block is the product.
+pub(super) type Sample = ([f64; MOST], [f64; MOST]);
+
+/// Cuts that follow each other, at most: 20 in each direction leave 10⁻⁶ of an edge.
+const DEEPEST: u32 = 40;
+
+/// The integral of test functions times potentials over a patch.
+pub(super) struct Adaptive<'a, F, N> {
+    pub polygon: &'a Polygon,
+    /// Test functions and potentials at a point.
+    pub sample: F,
+    /// How large the error of a block is.
+    pub norm: N,
+    rule: Quadrature<[f64; 2]>,
+}
+
+/// A part of the unit square.
+#[derive(Clone, Copy)]
+struct Cell {
+    low: [f64; 2],
+    high: [f64; 2],
+}
+
+impl<'a, F: Fn(DVec3) -> Sample, N: Fn(&Block) -> f64> Adaptive<'a, F, N> {
+    /// For test functions of a degree: n points each way are exact up to 2n − 1, of which a test function takes `degree`.
+    pub fn new(degree: usize, polygon: &'a Polygon, sample: F, norm: N) -> Self {
+        Self { polygon, sample, norm, rule: gauss_legendre(degree + 4, 0.0, 1.0).squared() }
+    }
+
+    /// The integral, with an error of about `tolerance(its first estimate)`.
+    pub fn integrate(&self, tolerance: impl Fn(&Block) -> f64) -> Block {
+        let whole = Cell { low: [0.0; 2], high: [1.0; 2] };
+        let estimate = self.estimate(whole);
+        let tolerance = tolerance(&estimate);
+        self.refined(whole, &estimate, tolerance, DEEPEST)
+    }
+
+    /// The integral over a cell, in halves until they agree with the whole, whichever way it is cut.
+    ///
+    /// Halves in s and halves in t take away the errors of the rule in s and in t, so both corrections are made.
+    fn refined(&self, cell: Cell, whole: &Block, tolerance: f64, depth: u32) -> Block {
+        let cuts = [0, 1].map(|axis| {
+            let halves = cell.halves(axis);
+            (halves, halves.map(|half| self.estimate(half)))
+        });
+        let corrections =
+            cuts.each_ref().map(|(_, [first, second])| combined(&combined(first, second, 1.0), whole, -1.0));
+        let errors = corrections.each_ref().map(|correction| (self.norm)(correction));
+        if errors[0] + errors[1] <= tolerance || depth == 0 {
+            return combined(&combined(whole, &corrections[0], 1.0), &corrections[1], 1.0);
+        }
+        // Two errors of 1/√2 of the tolerance, of either sign, make about the tolerance.
+        let part = tolerance * std::f64::consts::FRAC_1_SQRT_2;
+        let (halves, estimates) = &cuts[usize::from(errors[1] > errors[0])];
+        let [first, second] = [0, 1].map(|k| self.refined(halves[k], &estimates[k], part, depth - 1));
+        combined(&first, &second, 1.0)
+    }
+
+    fn estimate(&self, cell: Cell) -> Block {
+        let mut block = [[0.0; MOST]; MOST];
+        let size = [0, 1].map(|axis| cell.high[axis] - cell.low[axis]);
+        for (&[s, t], weight) in self.rule.nodes.iter().zip(&self.rule.weights) {
+            let (x, density) = self.node([cell.low[0] + size[0] * s, cell.low[1] + size[1] * t]);
+            let (tests, potentials) = (self.sample)(x);
+            let weight = weight * size[0] * size[1] * density;
+            for (row, test) in block.iter_mut().zip(tests) {
+                row.iter_mut().zip(potentials).for_each(|(entry, u)| *entry += weight * test * u);
+            }
+        }
+        block
+    }
+
+    /// The point of the patch at (s, t) of the square, and the area that a unit of the square is stretched to.
+    fn node(&self, [s, t]: [f64; 2]) -> (DVec3, f64) {
+        if is_triangle(self.polygon) {
+            (point(self.polygon, collapsed(s, t)), 2.0 * s * self.polygon.area())
+        } else {
+            (self.polygon.point(s, t), self.polygon.density(s, t))
+        }
+    }
+}
+
+impl Cell {
+    fn halves(self, axis: usize) -> [Self; 2] {
+        let middle = 0.5 * (self.low[axis] + self.high[axis]);
+        let mut halves = [self; 2];
+        halves[0].high[axis] = middle;
+        halves[1].low[axis] = middle;
+        halves
+    }
+}
+
+/// a + `factor` b.
+pub(super) fn combined(a: &Block, b: &Block, factor: f64) -> Block {
+    std::array::from_fn(|k| std::array::from_fn(|l| a[k][l] + factor * b[k][l]))
+}
+
+/// The block with rows for columns.
+pub(super) fn transposed(block: &Block) -> Block {
+    std::array::from_fn(|a| std::array::from_fn(|b| block[b][a]))
+}
