@@ -48,4 +48,5 @@ pub mod reconstruct;
 pub mod render;
 pub mod scene;
 pub mod solve;
+pub mod thermal;
 pub mod visibility;

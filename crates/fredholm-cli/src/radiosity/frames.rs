@@ -12,6 +12,7 @@ use fredholm::relax::Relaxation;
 use fredholm::value::{Rgb, Value};
 use radiosity::patches::Patches;
 use radiosity::render::{Colour, Exposure, Picture, Preview};
+use radiosity::scene::Units;
 use std::f64::consts::PI;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -22,6 +23,7 @@ pub struct Frames {
     every: usize,
     preview: Preview,
     exposure: Option<Exposure>,
+    units: Units,
     /// The files written.
     pub files: Vec<PathBuf>,
     /// The seconds spent before the solver began.
@@ -38,7 +40,7 @@ impl Frames {
     pub fn new<V: Colour>(
         folder: Folder,
         args: &Radiosity,
-        settings: &Settings,
+        (settings, units): (&Settings, Units),
         domain: &Domain<'_, V>,
     ) -> Self {
         let start = Instant::now();
@@ -48,6 +50,7 @@ impl Frames {
             folder,
             every: args.every.unwrap_or(usual),
             preview: Preview::new(&view, &domain.polygons, &domain.patches, &domain.visibility),
+            units,
             exposure: (!args.false_colour).then(|| exposure(&domain.patches)),
             files: Vec::new(),
             preparing: start.elapsed().as_secs_f64(),
@@ -85,7 +88,7 @@ impl Frames {
         let start = Instant::now();
         let picture = self.preview.draw(radiosity);
         let exposed = |exposure| picture.develop(exposure);
-        let image = self.exposure.map_or_else(|| map(&picture, patches, radiosity), exposed);
+        let image = self.exposure.map_or_else(|| map(&picture, patches, radiosity, self.units), exposed);
         self.files.push(write_png(self.folder.frame(iteration)?, &image)?);
         self.recording += start.elapsed().as_secs_f64();
         Ok(())

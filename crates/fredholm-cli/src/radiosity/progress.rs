@@ -11,6 +11,7 @@ use fredholm::relax::Relaxation;
 use indicatif::ProgressBar;
 use radiosity::patches::Patches;
 use radiosity::render::Colour;
+use radiosity::scene::Units;
 use radiosity::solve::{Observer, Solution};
 use std::path::PathBuf;
 
@@ -23,13 +24,18 @@ pub struct Watcher<'a, V> {
     assembly: ProgressBar,
     relaxation: ProgressBar,
     first: Option<f64>,
+    unit: &'static str,
     frames: Option<Frames>,
     failed: Option<anyhow::Error>,
 }
 
 impl<'a, V: Colour> Watcher<'a, V> {
     /// A watcher over these patches.
-    pub fn new(settings: &Settings, patches: &'a Patches<V>, frames: Option<Frames>) -> Self {
+    pub fn new(
+        (settings, units): (&Settings, Units),
+        patches: &'a Patches<V>,
+        frames: Option<Frames>,
+    ) -> Self {
         let n = patches.len() as u64;
         // Reciprocity, A_i F_ij = A_j F_ji, halves the work where patches are tested as wholes or both as points.
         let entries = if settings.method == Method::Collocation { n * n } else { n * (n + 1) / 2 };
@@ -39,6 +45,7 @@ impl<'a, V: Colour> Watcher<'a, V> {
             assembly: bar("form factors", entries),
             relaxation,
             first: None,
+            unit: units.exitance(),
             frames,
             failed: None,
         }
@@ -72,7 +79,7 @@ impl<V: Colour> Observer<V> for Watcher<'_, V> {
             let first = *self.first.get_or_insert(norm);
             let done = if norm > target { (first / norm).ln() / (first / target).ln() } else { 1.0 };
             self.relaxation.set_position((STEPS * done.clamp(0.0, 1.0)) as u64);
-            self.relaxation.set_message(format!("iteration {iteration}, residual {norm:.1e} W/m²"));
+            self.relaxation.set_message(format!("iteration {iteration}, residual {norm:.1e} {}", self.unit));
         }
         let Some(frames) = &mut self.frames else { return true };
         self.failed = frames.record(iteration, self.patches, relaxation).err();

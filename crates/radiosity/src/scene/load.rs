@@ -2,6 +2,7 @@
 
 use super::error::{Error, Place, Problem};
 use super::mesh::{self, Mesh};
+use super::photometric::{self, Units};
 use super::{Scene, file, obj};
 use fredholm::value::Rgb;
 use serde::Deserialize;
@@ -15,6 +16,8 @@ pub struct Loaded {
     pub scene: Scene<Rgb>,
     /// What the file says in place of the defaults.
     pub solve: SolveOptions,
+    /// What its light is measured in; where that is lumens all channels are the same: [`Self::grey`].
+    pub units: Units,
 }
 
 /// How a scene asks to be solved; `None` where it does not say.
@@ -42,19 +45,32 @@ pub struct SolveOptions {
 ///
 /// When a file cannot be read or understood, or the scene is none that can be solved: see [`Problem`].
 pub fn load(path: &Path) -> Result<Loaded, Error> {
+    load_in(path, None)
+}
+
+/// The same in these units, whatever a scene file says. In a mesh alone `Ke` is the luminance in cd/m² if they are
+/// photometric.
+///
+/// # Errors
+///
+/// As of [`load`], and when a photometric scene has colours.
+pub fn load_in(path: &Path, units: Option<Units>) -> Result<Loaded, Error> {
     let loaded = match extension(path).as_str() {
-        "toml" => file::load(path)?,
-        _ => bare_mesh(path)?,
+        "toml" => file::load(path, units)?,
+        _ => bare_mesh(path, units.unwrap_or_default())?,
     };
     loaded.scene.check().map_err(|problem| problem.at(Place::file(path)))?;
     Ok(loaded)
 }
 
-fn bare_mesh(path: &Path) -> Result<Loaded, Error> {
-    let mesh = read_mesh(path, 1.0, &Place::file(path))?;
-    let surfaces = mesh::surfaces(vec![mesh], &BTreeMap::new())?;
+fn bare_mesh(path: &Path, units: Units) -> Result<Loaded, Error> {
+    let (meshes, overrides) = (vec![read_mesh(path, 1.0, &Place::file(path))?], BTreeMap::new());
+    if units == Units::Photometric {
+        photometric::check_grey(&meshes, &overrides)?;
+    }
+    let surfaces = mesh::surfaces(meshes, &overrides)?;
     let scene = Scene { name: file_name(path), surfaces, camera: None };
-    Ok(Loaded { scene, solve: SolveOptions::default() })
+    Ok(Loaded { scene, solve: SolveOptions::default(), units })
 }
 
 /// The mesh of a file, by its extension; lengths in the file are so many `metres`.

@@ -16,13 +16,17 @@ mod material;
 mod mesh;
 mod mtl;
 mod obj;
+mod photometric;
 mod text;
+mod thermal;
 
 pub use camera::Camera;
 pub use cornell::{cornell_box, cornell_box_spectral};
 pub use cut::cut;
 pub use error::{Error, Place, Problem};
-pub use load::{Loaded, SolveOptions, load};
+pub use load::{Loaded, SolveOptions, load, load_in};
+pub use photometric::Units;
+pub use thermal::{Thermal, ThermalScene, load_thermal};
 
 use crate::polygon::Polygon;
 use fredholm::value::Value;
