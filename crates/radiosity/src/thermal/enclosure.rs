@@ -38,13 +38,9 @@ impl Enclosure {
         bands: Bands,
     ) -> Result<Self, ThermalError> {
         let n = surfaces.len();
-        let lengths = view_factors
-            .iter()
-            .map(Vec::len)
-            .chain([n; 1].into_iter().skip(usize::from(view_factors.len() >= n)));
-        if let Some((row, given)) = (1..).zip(lengths).find(|(row, given)| *given != n || *row > n) {
-            let given = if row > view_factors.len() { 0 } else { given };
-            return Err(ThermalError::Shape { surfaces: n, row, given });
+        let given = |row: usize| view_factors.get(row).map_or(0, Vec::len);
+        if let Some(row) = (0..n.max(view_factors.len())).find(|&row| row >= n || given(row) != n) {
+            return Err(ThermalError::Shape { surfaces: n, row: row + 1, given: given(row) });
         }
         check_areas(&surfaces, areas)?;
         let entries = Entries(view_factors);
