@@ -1,5 +1,7 @@
 //! The enclosures of textbooks, to ten digits, and what follows of heat by radiation in general.
 
+#![allow(clippy::unwrap_used, reason = "in a test a panic is the message, in its helpers too")]
+
 mod common;
 
 use common::{p, parallelogram, scene, visibility, walls};
@@ -23,7 +25,7 @@ fn solve(enclosure: &Enclosure) -> Answer {
     answer
 }
 
-fn nested(surfaces: Vec<Surface>, areas: Vec<f64>) -> Answer {
+fn nested(surfaces: Vec<Surface>, areas: &[f64]) -> Answer {
     solve(&Enclosure::nested(surfaces, areas, Bands::grey()).unwrap())
 }
 
@@ -47,13 +49,13 @@ fn assert_flux(answer: &Answer, k: usize, expected: f64, what: &str) {
 fn parallel_plates() {
     let plates =
         |hot, cold| vec![Surface::at("hot", kelvin(hot), 0.8), Surface::at("cold", kelvin(cold), 0.5)];
-    let answer = nested(plates(1.0, 0.0), vec![1.0, 1.0]);
+    let answer = nested(plates(1.0, 0.0), &[1.0, 1.0]);
     assert_flux(&answer, 0, 4.0 / 9.0, "hot plate");
     assert_flux(&answer, 1, -4.0 / 9.0, "cold plate");
     assert!((answer.nodes[0].heat_flux - 0.444_444_444_444).abs() < 1e-12);
     assert!(answer.balance.defect() < 1e-15);
     // As many watts as a room has.
-    let answer = nested(plates(emissive_power(900.0), emissive_power(300.0)), vec![3.0, 3.0]);
+    let answer = nested(plates(emissive_power(900.0), emissive_power(300.0)), &[3.0, 3.0]);
     let expected = (emissive_power(900.0) - emissive_power(300.0)) / (1.0 / 0.8 + 1.0 / 0.5 - 1.0);
     assert_flux(&answer, 0, expected, "hot plate at 900 K");
 }
@@ -62,7 +64,7 @@ fn parallel_plates() {
 fn concentric_spheres_and_cylinders() {
     for (ratio, e1, e2) in [(4.0, 0.3, 0.7), (2.0, 0.05, 1.0), (9.0, 1.0, 0.01), (4.0, 0.999, 1e-3)] {
         let surfaces = vec![Surface::at("inner", kelvin(5.0), e1), Surface::at("outer", kelvin(2.0), e2)];
-        let answer = nested(surfaces, vec![2.0, 2.0 * ratio]);
+        let answer = nested(surfaces, &[2.0, 2.0 * ratio]);
         let expected = 3.0 / (1.0 / e1 + (1.0 / e2 - 1.0) / ratio);
         assert_flux(&answer, 0, expected, "inner");
         assert_flux(&answer, 1, -expected / ratio, "outer");
@@ -78,7 +80,7 @@ fn shields(outer: (f64, f64), sides: &[(f64, f64)]) -> Answer {
     }
     surfaces.push(Surface::at("cold", 0.0, outer.1));
     let count = surfaces.len();
-    nested(surfaces, vec![1.0; count])
+    nested(surfaces, &vec![1.0; count])
 }
 
 #[test]
@@ -190,12 +192,10 @@ fn random_enclosure(n: usize, seed: u64) -> (Vec<f64>, Vec<Vec<f64>>) {
         (state >> 11) as f64 / (1_u64 << 53) as f64
     };
     let mut exchange = vec![vec![0.0; n]; n];
-    for i in 0..n {
-        for j in 0..=i {
-            let direct = random();
-            exchange[i][j] = direct;
-            exchange[j][i] = direct;
-        }
+    for (i, j) in (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))) {
+        let direct = random();
+        exchange[i][j] = direct;
+        exchange[j][i] = direct;
     }
     let areas: Vec<f64> = exchange.iter().map(|row| row.iter().sum()).collect();
     let factors =
@@ -243,7 +243,8 @@ fn enclosures_of_many_surfaces_are_those_of_elimination() {
         let matrix = (0..n)
             .map(|i| (0..n).map(|j| f64::from(i == j) - coefficient(i) * factors[i][j]).collect())
             .collect();
-        let source = |k: usize| if k % 3 == 2 { 0.3 * (1.2 + (k as f64).cos()) } else { emissivity(k) * power(k) };
+        let source =
+            |k: usize| if k % 3 == 2 { 0.3 * (1.2 + (k as f64).cos()) } else { emissivity(k) * power(k) };
         let expected = eliminate(matrix, (0..n).map(source).collect());
         let errors = answer.errors.as_ref().unwrap();
         for k in 0..n {
@@ -267,8 +268,8 @@ fn bands_that_are_alike_are_grey() {
         surfaces.iter_mut().for_each(|s| s.emissivity = vec![s.emissivity[0]; count]);
         surfaces
     };
-    let grey = nested(surfaces(1), vec![1.0; 4]);
-    let banded = solve(&Enclosure::nested(surfaces(4), vec![1.0; 4], bands()).unwrap());
+    let grey = nested(surfaces(1), &[1.0; 4]);
+    let banded = solve(&Enclosure::nested(surfaces(4), &[1.0; 4], bands()).unwrap());
     for (a, b) in grey.nodes.iter().zip(&banded.nodes) {
         assert!((a.heat_flux - b.heat_flux).abs() < 1e-9 && (a.radiosity - b.radiosity).abs() < 1e-8);
         assert!((a.temperature.unwrap() - b.temperature.unwrap()).abs() < 1e-10);
@@ -288,7 +289,7 @@ fn a_shield_of_two_bands_balances_what_it_gets_in_each() {
         of(Surface::floating("away", "shield", 0.5), emissivity),
         of(Surface::at("cold", 300.0, 1.0), [1.0; 2]),
     ];
-    let answer = solve(&Enclosure::nested(surfaces, vec![1.0; 4], bands.clone()).unwrap());
+    let answer = solve(&Enclosure::nested(surfaces, &[1.0; 4], bands.clone()).unwrap());
     let (hot, cold) = (bands.emissive_powers(1200.0), bands.emissive_powers(300.0));
     let excess = |t: f64| -> f64 {
         let own = bands.emissive_powers(t);
@@ -317,7 +318,7 @@ fn newton_finds_hot_and_cold_from_afar() {
         let heated = Surface { name: "heated".into(), emissivity, condition };
         let mut cold = Surface::at("cold", 77.0, 0.5);
         cold.emissivity = vec![0.9, 0.7, 0.5, 0.3, 0.1];
-        let answer = solve(&Enclosure::nested(vec![heated, cold], vec![1.0, 2.0], bands()).unwrap());
+        let answer = solve(&Enclosure::nested(vec![heated, cold], &[1.0, 2.0], bands()).unwrap());
         assert!((answer.nodes[0].heat_flux / flux - 1.0).abs() < 1e-6, "{flux}: {answer:?}");
         assert!((answer.nodes[1].heat_flux / flux + 0.5).abs() < 1e-6, "{flux}: {answer:?}");
         assert!(answer.steps < 25, "{flux}: {} steps", answer.steps);
@@ -326,7 +327,7 @@ fn newton_finds_hot_and_cold_from_afar() {
 
 #[test]
 fn the_alternative_is_told() {
-    let two = |a: Surface, b: Surface| Enclosure::nested(vec![a, b], vec![1.0, 2.0], Bands::grey()).unwrap();
+    let two = |a: Surface, b: Surface| Enclosure::nested(vec![a, b], &[1.0, 2.0], Bands::grey()).unwrap();
     let fails = |enclosure: &Enclosure| enclosure.solve(&Options::default()).unwrap_err();
     let heated = |flux| Surface::heated("s", flux, 0.5);
     let loose = fails(&two(heated(2.0), heated(-1.0)));
@@ -342,7 +343,7 @@ fn the_alternative_is_told() {
     ));
     // Of two chambers one has a temperature.
     let four = vec![Surface::at("a", 300.0, 0.5), heated(0.0), heated(1.0), heated(-1.0)];
-    let chambers = Enclosure::nested(four, vec![1.0; 4], Bands::grey()).unwrap();
+    let chambers = Enclosure::nested(four, &[1.0; 4], Bands::grey()).unwrap();
     assert!(matches!(fails(&chambers), ThermalError::NotUnique { .. }));
     // A shield that both share links them.
     let four = vec![
@@ -351,7 +352,7 @@ fn the_alternative_is_told() {
         Surface::floating("s", "shield", 0.5),
         heated(2.0),
     ];
-    let linked = solve(&Enclosure::nested(four, vec![1.0; 4], Bands::grey()).unwrap());
+    let linked = solve(&Enclosure::nested(four, &[1.0; 4], Bands::grey()).unwrap());
     assert!((linked.nodes[0].heat_flux + 2.0).abs() < 1e-10);
     // No more can be drawn than arrives.
     match fails(&two(heated(-100.0), Surface::at("cold", 100.0, 0.5))) {
@@ -374,8 +375,8 @@ fn what_makes_no_enclosure_is_refused() {
     assert!(matches!(refused(2, &[1.0, 2.0], &even(2)), ThermalError::Reciprocity { .. }));
     assert!(matches!(refused(1, &[1.0], &[vec![1.1]]), ThermalError::ViewFactor { row: 1, column: 1, .. }));
     assert!(matches!(refused(2, &[1.0; 2], &[vec![0.6; 2], vec![0.6; 2]]), ThermalError::RowSum { .. }));
-    assert!(Enclosure::nested(surfaces(3), vec![1.0; 3], Bands::grey()).is_err());
-    assert!(Enclosure::nested(surfaces(2), vec![2.0, 1.0], Bands::grey()).is_err());
+    assert!(Enclosure::nested(surfaces(3), &[1.0; 3], Bands::grey()).is_err());
+    assert!(Enclosure::nested(surfaces(2), &[2.0, 1.0], Bands::grey()).is_err());
 }
 
 /// The faces of a unit cube in patches, each face a surface.

@@ -169,6 +169,14 @@ pub(super) fn positive<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Opt
     }
 }
 
+/// Light in lumens.
+enum Luminous {
+    /// In lm/m².
+    Exitance(Located),
+    /// In lm, of each surface.
+    Flux(Located),
+}
+
 /// Keys of [thermal scenes](super::load_thermal) alone.
 const THERMAL: [&str; 9] = [
     "emissivity",
@@ -224,19 +232,18 @@ impl Source<'_> {
         let material = |(name, entry): (&Spanned<String>, &MaterialEntry)| {
             let name = name.get_ref();
             let material = self.material(entry)?;
-            let (emission, power) = self.luminous(name, entry, units)?.unwrap_or((material.emission, None));
-            Ok((name.clone(), Material { emission, power, ..material }))
+            let material = match self.luminous(name, entry, units)? {
+                Some(Luminous::Exitance(exitance)) => Material { emission: Some(exitance), ..material },
+                Some(Luminous::Flux(flux)) => Material { power: Some(flux), ..material },
+                None => material,
+            };
+            Ok((name.clone(), material))
         };
         entries.iter().map(material).collect()
     }
 
-    /// The exitance or the power of a photometric entry; none where it says nothing of light.
-    fn luminous(
-        &self,
-        name: &str,
-        entry: &MaterialEntry,
-        units: Units,
-    ) -> Result<Option<(Option<Located>, Option<Located>)>, Error> {
+    /// The light of a photometric entry; none where it says nothing of light.
+    fn luminous(&self, name: &str, entry: &MaterialEntry, units: Units) -> Result<Option<Luminous>, Error> {
         let MaterialEntry { luminance, luminous_exitance, luminous_flux, .. } = entry;
         let at = |what: &str, span: &Range<usize>| Problem::Malformed(what.to_owned()).at(self.place(span));
         let given: Vec<_> = [
@@ -266,8 +273,9 @@ impl Source<'_> {
             (_, _, [(key, value, factor)]) => {
                 let place = self.place(&value.span());
                 photometric::check_photometric(name, key, *value.get_ref(), &place)?;
-                let located = Some(Located { value: Spectrum([value.get_ref() * factor; 3]), place });
-                Ok(Some(if *key == "luminous_flux" { (None, located) } else { (located, None) }))
+                let located = Located { value: Spectrum([value.get_ref() * factor; 3]), place };
+                let kind = if *key == "luminous_flux" { Luminous::Flux } else { Luminous::Exitance };
+                Ok(Some(kind(located)))
             }
         }
     }

@@ -58,7 +58,7 @@ impl Enclosure {
     /// # Errors
     ///
     /// When their number is odd, or the first of a pair is larger than the second.
-    pub fn nested(surfaces: Vec<Surface>, areas: Vec<f64>, bands: Bands) -> Result<Self, ThermalError> {
+    pub fn nested(surfaces: Vec<Surface>, areas: &[f64], bands: Bands) -> Result<Self, ThermalError> {
         let n = surfaces.len();
         if n % 2 == 1 || areas.len() != n {
             let what = format!(
@@ -80,7 +80,7 @@ impl Enclosure {
             view_factors[k + 1][k] = share;
             view_factors[k + 1][k + 1] = 1.0 - share;
         }
-        Self::new(surfaces, &areas, &view_factors, bands)
+        Self::new(surfaces, areas, &view_factors, bands)
     }
 
     /// The same in black surroundings of a temperature in K.

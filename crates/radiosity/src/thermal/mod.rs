@@ -17,7 +17,7 @@
 //!     Surface::floating("shield, cold side", "shield", 0.05),
 //!     Surface::at("cold", 300.0, 0.8),
 //! ];
-//! let enclosure = Enclosure::nested(surfaces, vec![1.0; 4], Bands::grey())?;
+//! let enclosure = Enclosure::nested(surfaces, &[1.0; 4], Bands::grey())?;
 //! let answer = enclosure.solve(&Options::default())?;
 //!
 //! let powers = radiosity::thermal::emissive_power(500.0) - radiosity::thermal::emissive_power(300.0);

@@ -30,7 +30,7 @@ impl Answer {
 
     fn surface(&self, nodes: &[(usize, f64)]) -> SurfaceHeat {
         let area: f64 = nodes.iter().map(|(_, area)| area).sum();
-        let mean = mean(nodes, &self.nodes, area, |t| planck::emissive_power(t), planck::temperature);
+        let mean = mean(nodes, &self.nodes, area);
         let kelvins = || nodes.iter().filter_map(|(k, _)| self.nodes[*k].temperature);
         let lowest = kelvins().reduce(f64::min);
         let error = self.errors.as_ref().map(|errors| {
@@ -49,21 +49,16 @@ impl Answer {
     }
 }
 
-/// The mean of states, with the temperature of the mean `power`.
-fn mean(
-    nodes: &[(usize, f64)],
-    states: &[State],
-    area: f64,
-    power: impl Fn(f64) -> f64,
-    temperature: impl Fn(f64) -> f64,
-) -> State {
-    let known: Option<Vec<f64>> =
-        nodes.iter().map(|(k, a)| states[*k].temperature.map(|t| a * power(t))).collect();
-    let temperature = known.map(|powers| match nodes {
+/// The mean of states, with the temperature of the mean σT⁴.
+fn mean(nodes: &[(usize, f64)], states: &[State], area: f64) -> State {
+    let power =
+        |(k, a): &(usize, f64)| states[*k].temperature.map(|kelvin| a * planck::emissive_power(kelvin));
+    let powers: Option<Vec<f64>> = nodes.iter().map(power).collect();
+    let temperature = match nodes {
         // No rounding to a power and back.
-        [(k, _)] => states[*k].temperature.unwrap_or_default(),
-        _ => temperature(powers.iter().sum::<f64>() / area),
-    });
+        [(k, _)] => states[*k].temperature,
+        _ => powers.map(|powers| planck::temperature(powers.iter().sum::<f64>() / area)),
+    };
     State { temperature, ..mean_of(nodes, states, area) }
 }
 

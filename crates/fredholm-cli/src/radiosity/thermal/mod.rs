@@ -10,6 +10,7 @@ use super::outputs::{Outputs, write_field, write_png};
 use super::picture::map_of_patches;
 use super::settings::Settings;
 use super::timing::{Seconds, timed};
+use crate::args::name;
 use crate::ending::Ending;
 use crate::json::{self, Json};
 use crate::terminal::{bar, complain};
@@ -26,11 +27,8 @@ use std::time::Instant;
 
 /// `fredholm radiosity FILE --thermal`.
 pub fn command(file: &Path, args: &Radiosity, start: Instant) -> Result<Ending> {
-    if let Some(Quantity::Illuminance | Quantity::Luminance) = args.map {
-        bail!(
-            "--map {} is of light; with --thermal there are temperature and heat-flux",
-            crate::args::name(&args.map.unwrap_or(Quantity::Luminance))
-        );
+    if let Some(quantity @ (Quantity::Illuminance | Quantity::Luminance)) = args.map {
+        bail!("--map {} is of light; with --thermal there are temperature and heat-flux", name(&quantity));
     }
     let ended = match load_thermal(file)? {
         Thermal::Scene(scene) => walk(file, &scene, args, start),
@@ -55,7 +53,7 @@ fn is_alternative(error: &anyhow::Error) -> bool {
 fn without_mesh(name: &str, enclosure: &Enclosure, args: &Radiosity, start: Instant) -> Result<Ending> {
     if args.output.is_some() || args.patches.is_some() || args.map.is_some() {
         bail!(
-            "an [enclosure] has no shape to be drawn or cut into patches; ask for --json, or leave -o, --map and --patches out"
+            "an [enclosure] has no shape to be drawn or cut; ask for --json, or leave -o, --map and --patches out"
         );
     }
     let Outputs { json, .. } = Outputs::of(args, None)?;
@@ -72,7 +70,7 @@ fn walk(file: &Path, given: &ThermalScene, args: &Radiosity, start: Instant) -> 
     let ThermalScene { scene, surfaces, bands, surroundings, solve } = given;
     if let Some(method) = solve.method.as_deref().filter(|method| *method != "galerkin") {
         bail!(
-            "{}: [solve] method = \"{method}\" has no reciprocity, without which heat is lost; write galerkin or leave it out",
+            "{}: [solve] method = \"{method}\" has no reciprocity and loses heat; write galerkin or leave it out",
             file.display()
         );
     }
@@ -131,7 +129,7 @@ fn options(args: &Radiosity, wish: Option<f64>) -> Options {
     }
 }
 
-fn assemble(coupling: &FormFactors<'_, f64>, n: usize) -> Result<Dense<f32>> {
+fn assemble(coupling: &FormFactors<'_>, n: usize) -> Result<Dense<f32>> {
     let bar = bar("form factors", (n * (n + 1) / 2) as u64);
     let matrix = Dense::assemble(coupling, |entries| bar.inc(entries as u64)).map_err(ThermalError::from)?;
     bar.finish_and_clear();

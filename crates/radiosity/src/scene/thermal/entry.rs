@@ -70,7 +70,7 @@ pub(super) fn condition(owner: &str, entry: &SurfaceEntry) -> Result<(Condition,
         return Ok((Condition::Linked { body: body.get_ref().clone(), heat: total }, body.span()));
     }
     if let Some(power) = emissive_power
-        && !(*power.get_ref() >= 0.0)
+        && (*power.get_ref() < 0.0 || power.get_ref().is_nan())
     {
         return Err(format!("the emissive power of {owner} is {} W/m²; σT⁴ is not below 0", power.get_ref()));
     }

@@ -73,8 +73,8 @@ pub struct ThermalScene {
 /// When a file cannot be read or understood, or a surface has not just what it needs: see [`Problem`].
 pub fn load_thermal(file: &Path) -> Result<Thermal, Error> {
     if !file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
-        let what = "a mesh alone has no temperatures; name it in a scene file (.toml) that gives its materials `emissivity` \
-                    and `temperature` or `heat_flux`";
+        let what = "a mesh alone has no temperatures; name it in a scene file (.toml) that gives its \
+                    materials `emissivity` and `temperature` or `heat_flux`";
         return Err(Problem::Malformed(what.to_owned()).at(Place::file(file)));
     }
     let text = text::read(file, &Place::file(file))?;
@@ -214,7 +214,8 @@ impl<'a> Reader<'a> {
             || !entry.materials.is_empty()
             || entry.camera.is_some()
         {
-            let what = "an [enclosure] has its surfaces in itself; leave out unit, meshes, materials and camera, or the enclosure";
+            let what =
+                "an [enclosure] has its own surfaces; leave out unit, meshes, materials and camera, or it";
             return Err(malformed(what, place));
         }
         let EnclosureEntry { shape, view_factors, surface } = enclosure.get_ref();
@@ -226,7 +227,7 @@ impl<'a> Reader<'a> {
         }
         let (made, span) = match (shape, view_factors) {
             (Some(shape), None) if matches!(shape.get_ref().as_str(), "plates" | "nested") => {
-                (Enclosure::nested(surfaces, areas, self.bands.clone()), shape.span())
+                (Enclosure::nested(surfaces, &areas, self.bands.clone()), shape.span())
             }
             (Some(shape), None) => {
                 let what = format!(
