@@ -212,9 +212,8 @@ fn eliminate(mut m: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
         b.swap(k, pivot);
         for i in k + 1..n {
             let factor = m[i][k] / m[k][k];
-            for j in k..n {
-                m[i][j] -= factor * m[k][j];
-            }
+            let pivot_row = m[k].clone();
+            m[i].iter_mut().zip(&pivot_row).for_each(|(x, pivot)| *x -= factor * pivot);
             b[i] -= factor * b[k];
         }
     }

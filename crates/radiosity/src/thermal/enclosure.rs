@@ -23,7 +23,7 @@ const CLOSED: f64 = 1e-6;
 const RECIPROCAL: f64 = 1e-2;
 
 impl Enclosure {
-    /// From areas in m² and view factors: F[i][j] is the share of what leaves i that reaches j, and by reciprocity the
+    /// From areas in m² and view factors: `F[i][j]` is the share of what leaves i that reaches j, and by reciprocity the
     /// share of what i sees that is j. What a row misses of 1 are the surroundings, black and at 0 K unless
     /// [`Self::in_surroundings`] says otherwise.
     ///

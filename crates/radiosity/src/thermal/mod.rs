@@ -114,7 +114,7 @@ pub struct Balance {
     pub heat: f64,
     /// The heat that goes to the surroundings, in W.
     pub to_surroundings: f64,
-    /// ½ Σ |Q|, in W: what the difference of the two is to be compared with.
+    /// ½ Σ |Q|, the surroundings' included, in W: what the difference of the two is to be compared with.
     pub exchanged: f64,
 }
 

@@ -262,5 +262,6 @@ fn balance<F: Rows>(network: &Network<'_, F>, nodes: &[State]) -> Balance {
         balance.exchanged += 0.5 * area * state.heat_flux.abs();
         balance.to_surroundings += area * share * (state.radiosity - surroundings);
     }
+    balance.exchanged += 0.5 * balance.to_surroundings.abs();
     balance
 }

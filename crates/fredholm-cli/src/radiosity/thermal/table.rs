@@ -23,7 +23,10 @@ fn lines(report: &Report) -> Vec<(&'static str, String)> {
     lines.push(("closure", closure(report)));
     lines.push(("residual", residual(report)));
     let Report { balance_defect: defect, heat_exchanged: exchanged, .. } = report;
-    lines.push(("balance", format!("Σ Q = 0 within {defect:.1e} W, of {} W exchanged", three(*exchanged))));
+    lines.push((
+        "balance",
+        format!("Σ Q = 0 within {} W, of {} W exchanged", tiny(*defect), three(*exchanged)),
+    ));
     lines.push(("time", format!("{:.2} s", report.seconds.total)));
     if !report.files.is_empty() {
         let names: Vec<String> = report.files.iter().map(|file| file.display().to_string()).collect();
@@ -42,7 +45,7 @@ fn closure(report: &Report) -> String {
     let outside =
         format!("the surroundings, at {} K, get {} W", short(kelvin), three(report.heat_to_surroundings));
     match (report.closure_defect, escaping) {
-        (Some(defect), _) => format!("closed: {sums} add up to 1 within {defect:.1e}"),
+        (Some(defect), _) => format!("closed: {sums} add up to 1 within {}", tiny(defect)),
         (None, Some(share)) => {
             format!("open: {:.1} % of the sight lines leave the scene; {outside}", 100.0 * share)
         }
@@ -62,6 +65,11 @@ fn residual(report: &Report) -> String {
             "{residual:.1e} W/m²{steps}: NOT CONVERGED; allow more --iterations, or a larger --tolerance"
         ),
     }
+}
+
+/// A size that is to be small.
+fn tiny(number: f64) -> String {
+    if number == 0.0 { "0".to_owned() } else { format!("{number:.1e}") }
 }
 
 /// Four digits, whatever the size.
@@ -89,11 +97,10 @@ fn surfaces(report: &Report) -> String {
     for (k, (surface, range)) in surfaces.iter().zip(ranges).enumerate() {
         let bound =
             surface.error_bounds.map_or_else(|| "?".to_owned(), |errors| format!("{:.0e}", errors.heat));
-        let emissivity: Vec<String> = surface.emissivity.iter().map(|e| short(*e)).collect();
         rows.push(vec![
             surface.name.clone(),
             short(surface.area),
-            emissivity.join(" "),
+            emissivity(surface),
             temperatures[k].clone(),
             range,
             fluxes[k].clone(),
@@ -106,6 +113,16 @@ fn surfaces(report: &Report) -> String {
         rows.iter_mut().for_each(|row| drop(row.remove(4)));
     }
     text::columns(&rows)
+}
+
+/// One number, or one for each band where they differ.
+fn emissivity(surface: &Surface) -> String {
+    let mut numbers: Vec<String> = surface.emissivity.iter().map(|e| short(*e)).collect();
+    numbers.dedup();
+    match numbers.len() {
+        1 => numbers.remove(0),
+        _ => surface.emissivity.iter().map(|e| short(*e)).collect::<Vec<_>>().join(" "),
+    }
 }
 
 fn given(surface: &Surface) -> String {
