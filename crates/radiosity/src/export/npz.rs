@@ -15,7 +15,7 @@ use std::io::{self, BufWriter, Seek, Write};
 /// |---|---|---|
 /// | `centre`, `normal` | (n, 3) | f64 |
 /// | `area` | (n,) | f64 |
-/// | `emission`, `reflectance`, `radiosity`, `irradiance` | (n, channels) | f64 |
+/// | `emission`, `reflectance`, `radiosity`, `irradiance`, or as [the module](super) says | (n, channels) | f64 |
 /// | `surface` | (n,) | u32: an index into `surface_names` |
 /// | `surface_names` | (surfaces,) | str |
 pub fn write_npz<V: Value>(field: &Field<'_, V>, out: impl Write + Seek) -> io::Result<()> {
@@ -27,7 +27,7 @@ pub fn write_npz<V: Value>(field: &Field<'_, V>, out: impl Write + Seek) -> io::
     archive.matrix("centre", 3, patches.len(), vectors(|polygon| polygon.centroid()))?;
     archive.matrix("normal", 3, patches.len(), vectors(|polygon| polygon.normal()))?;
     archive.column("area", patches.areas.iter().copied())?;
-    for (name, values) in field.by_channel() {
+    for (name, values) in &field.columns {
         let channels = values.iter().flat_map(|value| value.channels().iter().copied());
         archive.matrix(name, V::CHANNELS, values.len(), channels)?;
     }

@@ -217,6 +217,9 @@ pub enum Problem {
         "no surface emits light, so the solution is zero; give a material a `radiance` (.toml) or a `Ke` (.mtl)"
     )]
     NoLight,
+    /// A surface that exchanges no heat as it is described.
+    #[error(transparent)]
+    Thermal(#[from] crate::thermal::ThermalError),
     /// A camera at infinity.
     #[error("the camera's position, target and up must be finite numbers")]
     CameraNotFinite,

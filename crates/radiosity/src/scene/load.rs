@@ -3,6 +3,7 @@
 use super::error::{Error, Place, Problem, Warning};
 use super::face::Face;
 use super::mesh::{self, Assembled, Mesh};
+use super::photometric::{self, Units};
 use super::vs3::Control;
 use super::{Scene, file, obj, ply, stl, vs3};
 use fredholm::value::Rgb;
@@ -23,6 +24,8 @@ pub struct Loaded {
     pub warnings: Vec<Warning>,
     /// How a View3D file asks for its view factors; `None` for any other.
     pub control: Option<Control>,
+    /// What its light is measured in; where that is lumens all channels are the same: [`Self::grey`].
+    pub units: Units,
 }
 
 /// How a scene asks to be solved; `None` where it does not say.
@@ -50,7 +53,17 @@ pub struct SolveOptions {
 ///
 /// When a file cannot be read or understood, or the scene is none that can be solved: see [`Problem`].
 pub fn load(path: &Path) -> Result<Loaded, Error> {
-    let loaded = load_unlit(path)?;
+    load_in(path, None)
+}
+
+/// The same in these units, whatever a scene file says. In a mesh alone `Ke` is the luminance in cd/m² if they are
+/// photometric.
+///
+/// # Errors
+///
+/// As of [`load`], and when a photometric scene has colours.
+pub fn load_in(path: &Path, units: Option<Units>) -> Result<Loaded, Error> {
+    let loaded = read(path, units)?;
     loaded.scene.check_light().map_err(|problem| problem.at(Place::file(path)))?;
     Ok(loaded)
 }
@@ -62,20 +75,28 @@ pub fn load(path: &Path) -> Result<Loaded, Error> {
 ///
 /// Those of [`load`], but for [`Problem::NoLight`].
 pub fn load_unlit(path: &Path) -> Result<Loaded, Error> {
+    read(path, None)
+}
+
+fn read(path: &Path, units: Option<Units>) -> Result<Loaded, Error> {
     let loaded = match extension(path).as_str() {
-        "toml" => file::load(path)?,
-        _ => bare_mesh(path)?,
+        "toml" => file::load(path, units)?,
+        _ => bare_mesh(path, units.unwrap_or_default())?,
     };
     loaded.scene.check_shape().map_err(|problem| problem.at(Place::file(path)))?;
     Ok(loaded)
 }
 
-fn bare_mesh(path: &Path) -> Result<Loaded, Error> {
+fn bare_mesh(path: &Path, units: Units) -> Result<Loaded, Error> {
     let mut mesh = read_mesh(path, 1.0, &Place::file(path))?;
     let (name, control) = (mesh.title.take().unwrap_or_else(|| file_name(path)), mesh.control.take());
-    let Assembled { surfaces, faces, warnings } = mesh::assemble(vec![mesh], &BTreeMap::new())?;
+    let (meshes, overrides) = (vec![mesh], BTreeMap::new());
+    if units == Units::Photometric {
+        photometric::check_grey(&meshes, &overrides)?;
+    }
+    let Assembled { surfaces, faces, warnings } = mesh::assemble(meshes, &overrides)?;
     let scene = Scene { name, surfaces, camera: None };
-    Ok(Loaded { scene, solve: SolveOptions::default(), faces, warnings, control })
+    Ok(Loaded { scene, solve: SolveOptions::default(), faces, warnings, control, units })
 }
 
 /// The mesh of a file, by its extension; lengths in the file are so many `metres`.

@@ -164,7 +164,8 @@ pub(super) fn assemble(
         let names = surface_names(&mesh.groups);
         let first_face = assembled.faces.len();
         for (group, name) in mesh.groups.into_iter().zip(names) {
-            let (reflectance, emission) = resolve(group.material.as_ref(), &materials)?;
+            let area = group.polygons.iter().map(Polygon::area).sum();
+            let (reflectance, emission) = resolve(group.material.as_ref(), area, &materials)?;
             let name = unique(name, &mut taken);
             let surface = assembled.surfaces.len();
             assembled.faces.extend(group.ranges().enumerate().map(|(number, (range, spot))| Face {
@@ -181,6 +182,19 @@ pub(super) fn assemble(
         assembled.warnings.extend(mesh.warnings);
     }
     Ok(assembled)
+}
+
+/// The groups of all meshes, in order, under names that differ.
+pub(super) fn named(meshes: Vec<Mesh>) -> Vec<(String, Group)> {
+    let mut taken = BTreeSet::new();
+    let mut named = Vec::new();
+    for mesh in meshes {
+        let names = surface_names(&mesh.groups);
+        named.extend(
+            mesh.groups.into_iter().zip(names).map(|(group, name)| (unique(name, &mut taken), group)),
+        );
+    }
+    named
 }
 
 /// That every override is of a material that some face is of.
@@ -210,12 +224,16 @@ fn overridden(
     materials
 }
 
-fn resolve(name: Option<&MaterialName>, materials: &BTreeMap<String, Material>) -> Result<(Rgb, Rgb), Error> {
+fn resolve(
+    name: Option<&MaterialName>,
+    area: f64,
+    materials: &BTreeMap<String, Material>,
+) -> Result<(Rgb, Rgb), Error> {
     let Some(MaterialName { name, place }) = name else {
-        return Material::default().resolve("none");
+        return Material::default().resolve("none", area);
     };
     match materials.get(name) {
-        Some(material) => material.resolve(name),
+        Some(material) => material.resolve(name, area),
         None => {
             let known = listed(materials.keys().map(String::as_str));
             Err(Problem::UnknownMaterial { name: name.clone(), known }.at(place.clone()))

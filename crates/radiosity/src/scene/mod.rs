@@ -22,9 +22,11 @@ mod material;
 mod mesh;
 mod mtl;
 mod obj;
+mod photometric;
 mod ply;
 mod stl;
 mod text;
+mod thermal;
 mod vs3;
 
 pub use camera::Camera;
@@ -33,7 +35,9 @@ pub use cut::cut;
 pub use error::{Error, Place, Problem, Warning};
 pub use examine::{Component, Defect, Finding, Report, examine};
 pub use face::Face;
-pub use load::{Loaded, SolveOptions, load, load_unlit};
+pub use load::{Loaded, SolveOptions, load, load_in, load_unlit};
+pub use photometric::Units;
+pub use thermal::{Thermal, ThermalScene, load_thermal};
 pub use vs3::Control;
 
 use crate::polygon::Polygon;
