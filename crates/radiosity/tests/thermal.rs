@@ -117,6 +117,25 @@ fn shields_of_sides_that_differ_are_resistances_in_a_row() {
     assert!((first - (1.0 - gap(0.8, 0.04) / resistance)).abs() < 1e-12);
 }
 
+#[test]
+fn a_shield_between_spheres_whose_sides_have_other_areas() {
+    // Outside it is grooved: 3 m² for 2 m² inside.
+    let surfaces = vec![
+        Surface::at("inner", kelvin(5.0), 0.7),
+        Surface::floating("toward", "shield", 0.2),
+        Surface::floating("away", "shield", 0.4),
+        Surface::at("outer", kelvin(1.0), 0.5),
+    ];
+    let answer = nested(surfaces, &[1.0, 2.0, 3.0, 4.0]);
+    let gap = |inner: (f64, f64), outer: (f64, f64)| {
+        (1.0 / inner.1 + inner.0 / outer.0 * (1.0 / outer.1 - 1.0)) / inner.0
+    };
+    let heat = 4.0 / (gap((1.0, 0.7), (2.0, 0.2)) + gap((3.0, 0.4), (4.0, 0.5)));
+    assert_flux(&answer, 0, heat, "inner");
+    assert_flux(&answer, 2, heat / 3.0, "away");
+    assert_flux(&answer, 3, -heat / 4.0, "outer");
+}
+
 /// The shape factors of the faces of a cube: opposite, adjacent.
 const CUBE: (f64, f64) = (OPPOSITE, (1.0 - OPPOSITE) / 4.0);
 const OPPOSITE: f64 = 0.199_824_895_697_904_8;

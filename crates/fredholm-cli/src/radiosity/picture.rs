@@ -53,16 +53,16 @@ pub fn draw<V: Colour>(
     units: Units,
     solution: &Solution<V>,
 ) -> RgbImage {
-    let first =
-        |values: &[V], factor: f64| -> Vec<f64> { values.iter().map(|v| v.channels()[0] * factor).collect() };
-    match args.map {
-        Some(Quantity::Illuminance) => {
-            return map_of_patches(args, domain, &first(&solution.irradiance, 1.0), "illuminance, lx");
-        }
-        Some(Quantity::Luminance) => {
-            return map_of_patches(args, domain, &first(&solution.radiosity, FRAC_1_PI), "luminance, cd/m²");
-        }
-        _ => (),
+    let shown = match args.map {
+        Some(Quantity::Illuminance) => Some((&solution.irradiance, 1.0, "illuminance, lx")),
+        Some(Quantity::Luminance) => Some((&solution.radiosity, FRAC_1_PI, "luminance, cd/m²")),
+        _ => None,
+    };
+    if let Some((values, factor, title)) = shown {
+        let values: Vec<V> = values.iter().map(|value| *value * factor).collect();
+        let scale = Scale::automatic(&domain.patches, &values);
+        let numbers: Vec<f64> = values.iter().map(|value| value.channels()[0]).collect();
+        return map_of_patches(args, domain, &numbers, &scale, title);
     }
     let view = view(args, domain);
     let bar = bar("picture", view.height as u64);
@@ -89,15 +89,15 @@ pub fn map<V: Colour>(picture: &Picture, patches: &Patches<V>, radiosity: &[V], 
     false_colour(&picture, &Scale::automatic(patches, &luminances), "luminance, cd/m²")
 }
 
-/// A number of every patch as a colour, on a scale from the lowest to the highest.
+/// A number of every patch as a colour.
 pub fn map_of_patches<V: Value>(
     args: &Radiosity,
     domain: &Domain<'_, V>,
     values: &[f64],
+    scale: &Scale,
     title: &str,
 ) -> RgbImage {
     let view = view(args, domain);
     let preview = Preview::new(&view, &domain.polygons, &domain.patches, &domain.visibility);
-    let scale = Scale::of_values(values.iter().copied());
-    map_of_values(preview.values(values), (view.width, view.height), &scale, title)
+    map_of_values(preview.values(values), (view.width, view.height), scale, title)
 }

@@ -21,10 +21,9 @@ fn surfaces(report: &Report) -> String {
     }
     let bound = report.error_bound.unwrap_or(0.0);
     let digits = |of: fn(&(&Surface, f64, f64)) -> f64, error: f64| {
-        Digits::new(
-            known.iter().map(of).fold(0.0, f64::max),
-            error.max(1e-3 * known.iter().map(of).fold(0.0, f64::max)),
-        )
+        let largest = known.iter().map(of).fold(0.0, f64::max);
+        // Patches are of a size, whatever the solver knows: five digits are more than anyone has use for.
+        Digits::new(largest, error.max(1e-4 * largest))
     };
     let (lux, candela) = (digits(|known| known.1, bound), digits(|known| known.2, bound / PI));
     let row = |(surface, h, l): &(&Surface, f64, f64)| {

@@ -20,6 +20,7 @@ use image::RgbImage;
 use radiosity::closure::Closure;
 use radiosity::export::Field;
 use radiosity::form_factor::FormFactors;
+use radiosity::render::Scale;
 use radiosity::scene::{Thermal, ThermalScene, load_thermal};
 use radiosity::thermal::{Answer, Bands, Enclosure, Exchange, Node, Options, State, ThermalError};
 use std::path::Path;
@@ -150,16 +151,12 @@ fn nodes(domain: &Domain<'_, f64>) -> Vec<Node> {
 
 /// The map of the temperatures, or of the heat fluxes.
 fn draw(args: &Radiosity, domain: &Domain<'_, f64>, answer: &Answer) -> RgbImage {
-    let values = |of: fn(&State) -> f64| answer.nodes.iter().map(of).collect::<Vec<_>>();
-    match args.map {
-        Some(Quantity::HeatFlux) => {
-            map_of_patches(args, domain, &values(|state| state.heat_flux), "net heat flux, W/m²")
-        }
-        _ => {
-            let kelvins = values(|state| state.temperature.unwrap_or(f64::NAN));
-            map_of_patches(args, domain, &kelvins, "temperature, K")
-        }
-    }
+    let (of, title): (fn(&State) -> f64, _) = match args.map {
+        Some(Quantity::HeatFlux) => (|state| state.heat_flux, "net heat flux, W/m²"),
+        _ => (|state| state.temperature.unwrap_or(f64::NAN), "temperature, K"),
+    };
+    let values: Vec<f64> = answer.nodes.iter().map(of).collect();
+    map_of_patches(args, domain, &values, &Scale::of_values(values.iter().copied()), title)
 }
 
 fn tell<F: Rows>(given: &Given<'_, F>, answer: &Answer, json: Option<Json>) -> Result<Ending> {

@@ -22,11 +22,9 @@ fn lines(report: &Report) -> Vec<(&'static str, String)> {
     }
     lines.push(("closure", closure(report)));
     lines.push(("residual", residual(report)));
-    let Report { balance_defect: defect, heat_exchanged: exchanged, .. } = report;
-    lines.push((
-        "balance",
-        format!("Σ Q = 0 within {} W, of {} W exchanged", tiny(*defect), three(*exchanged)),
-    ));
+    let whose = if report.closure_defect.is_some() { "" } else { ", with the surroundings'," };
+    let (defect, exchanged) = (tiny(report.balance_defect), three(report.heat_exchanged));
+    lines.push(("balance", format!("Σ Q{whose} = 0 within {defect} W, of {exchanged} W exchanged")));
     lines.push(("time", format!("{:.2} s", report.seconds.total)));
     if !report.files.is_empty() {
         let names: Vec<String> = report.files.iter().map(|file| file.display().to_string()).collect();
