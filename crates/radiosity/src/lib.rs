@@ -32,6 +32,7 @@
 //! | 4 | [`kernel`] | K(x, y) = cosθ cosθ′ V / (π r²) |
 //! | 5 | [`form_factor`] | F_ij: Nyström, collocation, Galerkin |
 //! | 6 | [`solve`](mod@solve) | u = f + ρ ⊙ (F u), by the crate `fredholm`; [`closure`] checks it |
+//! | | [`view_factors`] | the F_ij of faces for other programs, each with its error |
 //! | 7 | [`reconstruct`] | from patches to the light at any point |
 //! | 8 | [`render`], [`export`] | pictures and files |
 //!

@@ -1,4 +1,5 @@
-//! The solved field as a file: a row per patch, with all that the equation knows of it.
+//! The solved field as a file: a row per patch, with all that the equation knows of it. View factors are written by
+//! [`factors`].
 //!
 //! | column | unit | |
 //! |---|---|---|
@@ -12,6 +13,7 @@
 //! | surface | | which surface of the scene the patch lies on |
 
 mod csv;
+pub mod factors;
 mod npz;
 
 pub use csv::write_csv;

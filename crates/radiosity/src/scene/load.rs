@@ -42,11 +42,23 @@ pub struct SolveOptions {
 ///
 /// When a file cannot be read or understood, or the scene is none that can be solved: see [`Problem`].
 pub fn load(path: &Path) -> Result<Loaded, Error> {
+    let loaded = load_unlit(path)?;
+    loaded.scene.check_light().map_err(|problem| problem.at(Place::file(path)))?;
+    Ok(loaded)
+}
+
+/// Reads a scene as [`load`] does, and takes one in which nothing emits: a view factor is a matter of shape alone,
+/// and most mesh files know of no light.
+///
+/// # Errors
+///
+/// Those of [`load`], but for [`Problem::NoLight`].
+pub fn load_unlit(path: &Path) -> Result<Loaded, Error> {
     let loaded = match extension(path).as_str() {
         "toml" => file::load(path)?,
         _ => bare_mesh(path)?,
     };
-    loaded.scene.check().map_err(|problem| problem.at(Place::file(path)))?;
+    loaded.scene.check_shape().map_err(|problem| problem.at(Place::file(path)))?;
     Ok(loaded)
 }
 

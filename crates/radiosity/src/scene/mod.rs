@@ -22,7 +22,7 @@ pub use camera::Camera;
 pub use cornell::{cornell_box, cornell_box_spectral};
 pub use cut::cut;
 pub use error::{Error, Place, Problem};
-pub use load::{Loaded, SolveOptions, load};
+pub use load::{Loaded, SolveOptions, load, load_unlit};
 
 use crate::polygon::Polygon;
 use fredholm::value::Value;
