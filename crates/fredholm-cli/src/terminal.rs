@@ -1,7 +1,7 @@
 //! The one place that writes to the terminal; a reader who has gone away is no error.
 
 use indicatif::{ProgressBar, ProgressStyle};
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, BufWriter, ErrorKind, Write};
 
 /// Where people and programs read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,6 +19,15 @@ pub fn say(stream: Stream, text: &str) -> io::Result<()> {
         Stream::Err => write_all(io::stderr().lock(), text),
     };
     match written {
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        other => other,
+    }
+}
+
+/// Writes to the standard output what is too long to be a text first. A broken pipe ends it, as in [`say`].
+pub fn pour(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    let mut out = BufWriter::new(io::stdout().lock());
+    match write(&mut out).and_then(|()| out.flush()) {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         other => other,
     }

@@ -3,14 +3,14 @@
 pub mod args;
 mod domain;
 mod frames;
-mod memory;
+pub mod memory;
 mod outputs;
 mod picture;
 mod progress;
 mod report;
 mod settings;
-mod table;
-mod timing;
+pub mod table;
+pub mod timing;
 
 use self::args::{Bands, Radiosity};
 use self::domain::Domain;
