@@ -3,15 +3,15 @@
 pub mod args;
 mod domain;
 mod frames;
-mod memory;
+pub mod memory;
 mod outputs;
 mod picture;
 mod progress;
 mod report;
 mod settings;
-mod table;
+pub mod table;
 mod thermal;
-mod timing;
+pub mod timing;
 
 use self::args::{Bands, Radiosity};
 use self::domain::Domain;
@@ -26,6 +26,7 @@ use self::timing::{Seconds, timed};
 use crate::ending::Ending;
 use crate::json::{self, Json};
 use crate::output::{Output, clear_on_interrupt};
+use crate::terminal::warn;
 use anyhow::{Context, Result, bail};
 use fredholm::relax::Outcome;
 use fredholm::value::Value;
@@ -53,6 +54,7 @@ pub fn command(args: &Radiosity) -> Result<Ending> {
         (None, Bands::Spectral) => walk(&cornell_box_spectral(), watts, &unsaid, args, start),
         (Some(file), Bands::Rgb) => {
             let loaded = load_in(file, args.photometric.then_some(Units::Photometric))?;
+            loaded.warnings.iter().try_for_each(warn)?;
             match loaded.units {
                 Units::Photometric => walk(&loaded.grey(), loaded.units, &loaded.solve, args, start),
                 Units::Radiometric => walk(&loaded.scene, loaded.units, &loaded.solve, args, start),

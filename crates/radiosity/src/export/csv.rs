@@ -49,7 +49,7 @@ fn suffix(channel: usize, channels: usize) -> String {
 }
 
 /// A name as a field of CSV: in quotes where it would break the row.
-fn quoted(name: &str) -> String {
+pub(super) fn quoted(name: &str) -> String {
     if name.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", name.replace('"', "\"\""))
     } else {

@@ -1,4 +1,5 @@
-//! The solved field as a file: a row per patch, with all that the equation knows of it.
+//! The solved field as a file: a row per patch, with all that the equation knows of it. View factors are written by
+//! [`factors`].
 //!
 //! | column | unit | |
 //! |---|---|---|
@@ -16,6 +17,7 @@
 //! `heat_flux_W_m2`.
 
 mod csv;
+pub mod factors;
 mod npz;
 
 pub use csv::write_csv;

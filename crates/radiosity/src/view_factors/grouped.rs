@@ -1,8 +1,15 @@
 //! Faces taken together: A_a F_ab = Σ_{i ∈ a} Σ_{j ∈ b} A_i F_ij.
 
+use super::packed::{entries, index};
 use super::{Exchange, Storage, ViewFactors};
 
 impl ViewFactors {
+    /// The bytes that [`grouped`](Self::grouped) takes at most, with so many groups.
+    pub fn grouped_bytes(groups: usize) -> u64 {
+        let sums = entries(groups) as u64 * size_of::<Exchange>() as u64;
+        sums + Self::bytes(groups, Storage::Double)
+    }
+
     /// The factors between groups of faces: `group_of[i]` is the number of face i's group among `names`.
     ///
     /// A group that is not convex sees itself, so the diagonal is not 0. Errors are added up, as bounds are. The numbers
@@ -19,22 +26,15 @@ impl ViewFactors {
             areas[group] += area;
         }
         assert!(areas.iter().all(|area| *area > 0.0), "a face in each group");
-        // Full, so that (a, b) and (b, a) collect what comes to them; they are added up below.
-        let mut sums = vec![Exchange::default(); k * k];
+        let mut sums = vec![Exchange::default(); entries(k)];
         self.for_each(|i, j, exchange| {
             // Within a group both directions count, but a face and itself only once.
             let times = if i != j && group_of[i] == group_of[j] { 2.0 } else { 1.0 };
-            let sum = &mut sums[group_of[i] * k + group_of[j]];
+            let sum = &mut sums[index(k, group_of[i], group_of[j])];
             sum.value += times * exchange.value;
             sum.error += times * exchange.error;
         });
-        let both = |a: usize, b: usize| {
-            let (one, other) = (sums[a * k + b], sums[b * k + a]);
-            match a == b {
-                true => one,
-                false => Exchange { value: one.value + other.value, error: one.error + other.error },
-            }
-        };
-        Self::assemble(names, areas, Storage::Double, both, |_| ())
+        let pair = |a: usize, b: usize| sums[index(k, a, b)];
+        Self::assemble(names, areas, Storage::Double, pair, |_| ())
     }
 }

@@ -40,6 +40,9 @@ pub struct ViewFactors {
     corrected: Option<Multipliers>,
 }
 
+/// Rows that are read together: a cache line has 16 numbers and 64 errors, and 32 rows of 22 272 take 6 MB.
+const BAND: usize = 32;
+
 /// What an `f32` rounds, relative to itself.
 const SINGLE_ROUNDING: f64 = 1.0 / (1 << 24) as f64;
 
@@ -69,8 +72,7 @@ impl ViewFactors {
 
     /// The bytes that `n` faces take.
     pub fn bytes(n: usize, storage: Storage) -> u64 {
-        let n = n as u64;
-        n * (n + 1) / 2 * (storage.bytes() + 1)
+        entries(n) as u64 * (storage.bytes() + 1)
     }
 
     /// How many faces there are.
@@ -122,6 +124,32 @@ impl ViewFactors {
     /// Their errors.
     pub fn row_errors(&self, i: usize) -> impl ExactSizeIterator<Item = f64> + '_ {
         (0..self.len()).map(move |j| self.error(i, j))
+    }
+
+    /// All rows of F, one after another: much faster than each by [`row`](Self::row).
+    pub fn rows(&self) -> impl Iterator<Item = Vec<f64>> + '_ {
+        self.bands(|i, j| self.factor(i, j))
+    }
+
+    /// All rows of their errors.
+    pub fn rows_of_errors(&self) -> impl Iterator<Item = Vec<f64>> + '_ {
+        self.bands(|i, j| self.error(i, j))
+    }
+
+    /// Rows, some at a time: what lies before the diagonal stands in the triangle by columns, of which a band takes a
+    /// piece where a row would take an entry.
+    fn bands<'a>(&'a self, entry: impl Fn(usize, usize) -> f64 + 'a) -> impl Iterator<Item = Vec<f64>> + 'a {
+        let n = self.len();
+        (0..n).step_by(BAND).flat_map(move |first| {
+            let numbers = first..(first + BAND).min(n);
+            let mut rows = vec![Vec::with_capacity(n); numbers.len()];
+            for j in 0..n {
+                for (row, i) in rows.iter_mut().zip(numbers.clone()) {
+                    row.push(entry(i, j));
+                }
+            }
+            rows
+        })
     }
 
     /// Σ_j F_ij of each row, and the sum of its errors, which bounds the error of the sum.

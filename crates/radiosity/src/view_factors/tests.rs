@@ -38,6 +38,10 @@ fn factors_come_back_within_the_error_that_is_told() {
             assert_eq!(factors.row(i).collect::<Vec<_>>()[3], factors.factor(i, 3));
             assert_eq!(factors.row_errors(i).len(), n);
         }
+        // More rows than a band.
+        let many = self::factors(75, storage);
+        assert!(many.rows().zip(0..).all(|(row, i)| many.row(i).eq(row)) && many.rows().count() == 75);
+        assert!(many.rows_of_errors().zip(0..).all(|(row, i)| many.row_errors(i).eq(row)));
         assert!(factors.reciprocity_defect() <= 2.0 * f64::EPSILON);
     }
 }
