@@ -90,12 +90,13 @@ const GAP: f64 = 10.0;
 const ROUNDING: f64 = 1e-9;
 
 impl ViewFactors {
-    /// Makes the rows of the faces that are `whole` add up to 1, to 10⁻¹², by the least correction of the kernel in L²;
-    /// see [`enforce`](super::enforce). Errors grow by what is corrected.
+    /// Makes the rows of the faces that are `whole` add up to 1, to 10⁻¹², by the least correction of the kernel in L²:
+    /// of all G = Gᵀ ≥ 0 with Σ_j G_ij = A_i the one with the least Σ_ij ΔG_ij² / (A_i A_j). Exchanges that are certainly
+    /// 0 stay 0; errors grow by what is corrected. It takes no memory of the size of the matrix.
     ///
     /// # Errors
     ///
-    /// When the rows of a closed scene these cannot be; the factors are then as they were.
+    /// When these cannot be the rows of a closed scene; the factors are then as they were.
     ///
     /// # Panics
     ///
