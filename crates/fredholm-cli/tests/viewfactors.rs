@@ -16,7 +16,7 @@ const OPPOSITE: f64 = 0.199824895698;
 const ADJACENT: f64 = 0.200043776075;
 
 /// What scenes are asked in which faces hide one another in part.
-const HIDDEN: &str = "--tolerance 1e-2";
+const HIDDEN: &str = "--tolerance 1e-4";
 
 /// The corners of the six faces of a box, counter-clockwise seen from within: x, y, z low and high.
 const WALLS: [[usize; 4]; 6] =

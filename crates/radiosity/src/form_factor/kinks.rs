@@ -32,7 +32,7 @@ impl Kink {
         let heights = cell.map(|v| self.normal.dot(v) - self.offset);
         let (low, high) = heights.iter().fold((0.0_f64, 0.0_f64), |(l, h), x| (l.min(*x), h.max(*x)));
         let evenness = (-low).min(high) / (high - low);
-        if !(evenness > LEAST_PART) {
+        if evenness.is_nan() || evenness <= LEAST_PART {
             return 0.0;
         }
         let apart = (0..3).any(|k| {

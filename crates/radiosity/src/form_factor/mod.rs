@@ -1,7 +1,8 @@
 //! Room 5: F_ij = 1/A_i ∫_{P_i} ∫_{P_j} K(x, y) dy dx, or at the centroid of P_i alone: what F_ij *is* for light.
 //!
-//! An unoccluded factor is computed ([`lambert`], [`exchange`]); the part of it that arrives is sampled with rays
-//! (`sampled`), except where the two patches certainly see each other or certainly do not.
+//! An unoccluded factor is computed ([`lambert`], [`exchange`], [`contour`]); the part of it that arrives is sampled with rays
+//! (`sampled`), except where the two patches certainly see each other or certainly do not. View factors, which are wanted
+//! one by one and with an error each, have it clipped instead: [`pairs`].
 //!
 //! | radiosity | general theory | |
 //! |---|---|---|

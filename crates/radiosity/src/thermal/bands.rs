@@ -83,7 +83,7 @@ mod tests {
             assert!((slopes.iter().sum::<f64>() - 1.0).abs() < 1e-14);
         }
         // A quarter of the power lies below the wavelength of Wien's law.
-        let wien = Bands::new(vec![2897.771_955 / 300.0]).unwrap();
+        let wien = Bands::new(vec![2_897.771_955 / 300.0]).unwrap();
         assert!((wien.emissive_powers(300.0)[0] / emissive_power(300.0) - 0.250_05).abs() < 1e-5);
     }
 

@@ -40,7 +40,7 @@ impl Blockers {
         let mut outlines = Vec::new();
         for plane in mesh.planes() {
             let body = blockers.body_of_face[plane[0] as usize];
-            let whole = mesh.outline(&plane).map(|outline| mesh.without_straight_corners(outline));
+            let whole = mesh.outline(&plane).map(|outline| mesh.without_straight_corners(&outline));
             let parts =
                 match whole.filter(|outline| mesh.is_convex(outline, faces[plane[0] as usize].normal())) {
                     Some(outline) => fan(&outline),
@@ -209,7 +209,7 @@ impl<'a> Mesh<'a> {
         (outline.len() == next.len()).then_some(outline)
     }
 
-    fn without_straight_corners(&self, outline: Vec<u32>) -> Vec<u32> {
+    fn without_straight_corners(&self, outline: &[u32]) -> Vec<u32> {
         let n = outline.len();
         let at = |k: usize| self.vertices[outline[k % n] as usize];
         let turns = |k: usize| {
