@@ -380,12 +380,11 @@ impl<V: Value> Run<'_, V> {
         let sum =
             |buffer: &mut Vec<f64>, &i: &usize| (space.element_of(i), operator.row(i, buffer).iter().sum());
         let sums: Vec<(usize, f64)> = checked.par_iter().map_init(Vec::new, sum).collect();
+        let further = |a: f64, b: f64| if (b - 1.0).abs() > (a - 1.0).abs() { b } else { a };
         let mut worst: Vec<(usize, f64)> = Vec::new();
         for (patch, sum) in sums {
             match worst.last_mut() {
-                Some(last) if last.0 == patch => {
-                    last.1 = if (sum - 1.0_f64).abs() > (last.1 - 1.0).abs() { sum } else { last.1 };
-                }
+                Some(last) if last.0 == patch => last.1 = further(last.1, sum),
                 _ => worst.push((patch, sum)),
             }
         }

@@ -191,7 +191,8 @@ fn moments_are_right_from_far_from_a_millionth_and_from_the_line_of_an_edge() {
                     for (b, got) in got.iter().enumerate().take(space.range(j).len()) {
                         let value = |y: DVec3| space.values(j, y)[b];
                         let expected: f64 = pieces.iter().map(|piece| brute(x, piece, &value)).sum();
-                        worst = worst.max((got - expected).abs() / factor.max(1e-12));
+                        let error = (got - expected).abs() / factor.max(1e-12);
+                        worst = worst.max(error);
                     }
                 }
             }
@@ -275,6 +276,7 @@ fn patches_that_share_an_edge_or_a_corner_or_leave_a_gap_have_their_blocks() {
             let space = Space::new(&patches.polygons, degree);
             let expected = block(&space, levels, 8);
             let total: f64 = expected.iter().flatten().sum();
+            println!("{name}: exchange {total}");
             for accuracy in [1e-3, 1e-5] {
                 let start = std::time::Instant::now();
                 let coupling = Elements::galerkin(&space, &patches, &visibility, accuracy);
@@ -444,31 +446,30 @@ fn errors(known: &Known, size: f64, degree: Degree, method: Method, tolerance: f
     [errors[0], errors[1].sqrt(), errors[2], errors[3].sqrt(), errors[4]]
 }
 
-/// The orders between the two finest of the sizes.
-fn orders(walls: &[Polygon], sizes: [f64; 2], degree: Degree, method: Method, tolerance: f64) -> Errors {
+/// The orders from one size to another, and the errors at the finer.
+fn orders(walls: &[Polygon], sizes: [f64; 2], degree: Degree, method: Method, tolerance: f64) -> [Errors; 2] {
     let known = Known::new(walls.to_vec(), 0.1 * tolerance);
-    let start = std::time::Instant::now();
     let [coarse, fine] = sizes.map(|size| errors(&known, size, degree, method, tolerance));
-    let shown = |e: &Errors| e.map(|e| format!("{e:.1e}")).join(" ");
-    println!("{method:?} {degree:?} {:?}\n    {}\n    {}", start.elapsed(), shown(&coarse), shown(&fine));
     let orders: Errors = std::array::from_fn(|k| (coarse[k] / fine[k]).ln() / (sizes[0] / sizes[1]).ln());
-    println!("    orders {}", orders.map(|o: f64| format!("{o:.2}")).join(" "));
-    orders
+    let shown = |numbers: &Errors| numbers.map(|number| format!("{number:.2e}")).join(" ");
+    println!("{method:?} {degree:?}: orders {orders:.2?}, errors {}", shown(&fine));
+    [orders, fine]
 }
 
-/// Order k + 1 in the maximum and the mean square; iterated, half an order more in the mean square and twice the order away
+/// Order k + 1 in the maximum and the mean square. Iterated: half an order more in the mean square, and twice the order away
 /// from the edges of the room. Nearer than h to an edge the kernel is not smooth at the scale of an element, and there is
 /// no gain in the maximum.
 #[track_caller]
-fn assert_orders(walls: &[Polygon], cases: &[(Degree, [f64; 2], f64)], doubled: bool) {
-    for &(degree, sizes, tolerance) in cases {
-        for method in [Method::Collocation, Method::Galerkin] {
-            let found = orders(walls, sizes, degree, method, tolerance);
+fn assert_orders(walls: &[Polygon], cases: [(Degree, [f64; 2], f64); 3]) {
+    for (degree, sizes, tolerance) in cases {
+        for (method, tolerance) in [(Method::Collocation, 0.01 * tolerance), (Method::Galerkin, tolerance)] {
+            let [[worst, mean_square, _, iterated, inside], fine] =
+                orders(walls, sizes, degree, method, tolerance);
             let k = degree.order() as f64;
-            assert!((found[0] - (k + 1.0)).abs() < 0.3, "maximum");
-            assert!((found[1] - (k + 1.0)).abs() < 0.25, "mean square");
-            assert!(found[3] > k + 1.25, "iterated, mean square");
-            assert!(!doubled || found[4] > 2.0 * k + 1.6, "iterated, away from edges");
+            assert!((worst - (k + 1.0)).abs() < 0.25, "maximum: {worst}");
+            assert!((mean_square - (k + 1.0)).abs() < 0.25, "mean square: {mean_square}");
+            assert!(iterated > k + 1.25, "iterated, mean square: {iterated}");
+            assert!(inside > 2.0 * k + 1.6 || fine[4] < tolerance, "iterated, away from edges: {inside}");
         }
     }
 }
@@ -476,32 +477,32 @@ fn assert_orders(walls: &[Polygon], cases: &[(Degree, [f64; 2], f64)], doubled: 
 #[test]
 fn rates_on_a_cube() {
     let cases = [
-        (Degree::Constant, [0.25, 0.125], 1e-5),
-        (Degree::Linear, [0.5, 0.25], 1e-6),
-        (Degree::Quadratic, [0.5, 0.25], 1e-7),
+        (Degree::Constant, [0.25, 0.125], 1e-4),
+        (Degree::Linear, [0.5, 0.25], 1e-5),
+        (Degree::Quadratic, [0.5, 0.25], 3e-6),
     ];
-    assert_orders(&cube(), &cases, true);
+    assert_orders(&cube(), cases);
 }
 
 #[test]
 fn rates_on_a_tetrahedron() {
     let edge = 0.4 * 8_f64.sqrt();
     let cases = [
-        (Degree::Constant, [edge / 4.0, edge / 8.0], 1e-5),
+        (Degree::Constant, [edge / 4.0, edge / 8.0], 1e-4),
         (Degree::Linear, [edge / 3.0, edge / 6.0], 1e-5),
-        (Degree::Quadratic, [edge / 2.0, edge / 4.0], 1e-6),
+        (Degree::Quadratic, [edge / 2.0, edge / 4.0], 3e-6),
     ];
-    assert_orders(&tetrahedron(), &cases, false);
+    assert_orders(&tetrahedron(), cases);
 }
 
 #[test]
 fn rates_in_a_room_of_trapezoids() {
     let cases = [
-        (Degree::Constant, [0.25, 0.125], 1e-5),
+        (Degree::Constant, [0.25, 0.125], 1e-4),
         (Degree::Linear, [0.5, 0.25], 1e-5),
-        (Degree::Quadratic, [0.5, 0.25], 1e-6),
+        (Degree::Quadratic, [0.5, 0.25], 3e-6),
     ];
-    assert_orders(&frustum(), &cases, false);
+    assert_orders(&frustum(), cases);
 }
 
 #[test]
@@ -512,7 +513,7 @@ fn a_white_furnace_is_one_in_every_space() {
         let (patches, visibility) = (Patches::new(&scene, 0.8).unwrap(), visibility(&scene));
         for degree in DEGREES {
             let space = Space::new(&patches.polygons, degree);
-            for (method, error) in [(solve::Method::Collocation, 1e-5), (solve::Method::Galerkin, 1e-2)] {
+            for (method, error) in [(solve::Method::Collocation, 1e-5), (solve::Method::Galerkin, 1e-3)] {
                 let options = solve::Options { method, tolerance: 1e-9, ..solve::Options::default() };
                 let found =
                     solve::solve_elements(&space, &patches, &visibility, &options, &mut solve::Unobserved);

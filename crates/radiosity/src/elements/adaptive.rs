@@ -1,8 +1,10 @@
-//! ∫_P Φ(x) dx for a Φ with many components, on cells that are cut in two in the direction in which that changes most.
+//! ∫_P Φ(x) dx for a Φ with many components that may not be smooth at the edges of P.
 //!
 //! Where P shares an edge with another patch, the potential of that patch is bounded on P but bends like w ln w at the
-//! distance w from the edge. The edges of P are sides of the square that its cells divide, so cells are cut towards an edge
-//! and not along it: l levels take l cells, where quarters would take 2^l.
+//! distance w from the edge, and at the ends of the edge depends on the direction. The edges of P are sides of the square
+//! that it is the image of: Gauss's rule in τ with w = τ³ (10 − 15 τ + 6 τ²), flat at both ends (A. Sidi 1993), converges as
+//! if nothing happened there. Its orders are raised until two agree; where they do not, since Φ bends elsewhere, as across a
+//! thin gap from the edge of another patch, cells are cut in two, in the direction in which that changes most.
 
 use super::degree::MOST;
 use super::rules::collapsed;
@@ -16,6 +18,16 @@ pub(super) type Block = [[f64; MOST]; MOST];
 
 /// The value at a node: test functions and potentials, of which the block is the product.
 pub(super) type Sample = ([f64; MOST], [f64; MOST]);
+
+/// Points each way of the rules that are dense at the edges. Two squares with a common edge meet a tolerance of 10⁻⁴ with the
+/// second.
+const FLATTENED: [usize; 7] = [6, 9, 13, 18, 25, 35, 50];
+
+/// A step that leaves more than this of the error promises nothing of the next.
+const SLOW: f64 = 0.5;
+
+/// Halves of a cell may agree without having seen what is narrow: at a gap of 10⁻³ the error was 13 times the tolerance.
+const SAFETY: f64 = 0.03;
 
 /// Cuts that follow each other, at most: 20 in each direction leave 10⁻⁶ of an edge.
 const DEEPEST: u32 = 40;
@@ -43,12 +55,34 @@ impl<'a, F: Fn(DVec3) -> Sample, N: Fn(&Block) -> f64> Adaptive<'a, F, N> {
         Self { polygon, sample, norm, rule: gauss_legendre(degree + 4, 0.0, 1.0).squared() }
     }
 
-    /// The integral, with an error of about `tolerance(its first estimate)`.
+    /// The integral, with an error of about `tolerance(a first estimate)`.
     pub fn integrate(&self, tolerance: impl Fn(&Block) -> f64) -> Block {
+        let mut coarse = self.flattened(FLATTENED[0]);
+        let (tolerance, mut last) = (tolerance(&coarse), f64::INFINITY);
+        for n in &FLATTENED[1..] {
+            let fine = self.flattened(*n);
+            let error = (self.norm)(&combined(&fine, &coarse, -1.0));
+            if error <= tolerance {
+                return fine;
+            }
+            if error > SLOW * last {
+                break;
+            }
+            (coarse, last) = (fine, error);
+        }
         let whole = Cell { low: [0.0; 2], high: [1.0; 2] };
-        let estimate = self.estimate(whole);
-        let tolerance = tolerance(&estimate);
-        self.refined(whole, &estimate, tolerance, DEEPEST)
+        self.refined(whole, &self.estimate(whole), SAFETY * tolerance, DEEPEST)
+    }
+
+    /// The integral by n × n points that are dense at the edges.
+    fn flattened(&self, n: usize) -> Block {
+        let rule = gauss_legendre(n, 0.0, 1.0).map(|&t, weight| {
+            (t.powi(3) * (10.0 - 15.0 * t + 6.0 * t * t), 30.0 * (t * (1.0 - t)).powi(2) * weight)
+        });
+        let mut block = [[0.0; MOST]; MOST];
+        let points = rule.squared();
+        points.nodes.iter().zip(&points.weights).for_each(|(at, weight)| self.add(*at, *weight, &mut block));
+        block
     }
 
     /// The integral over a cell, in halves until they agree with the whole, whichever way it is cut.
@@ -76,14 +110,19 @@ impl<'a, F: Fn(DVec3) -> Sample, N: Fn(&Block) -> f64> Adaptive<'a, F, N> {
         let mut block = [[0.0; MOST]; MOST];
         let size = [0, 1].map(|axis| cell.high[axis] - cell.low[axis]);
         for (&[s, t], weight) in self.rule.nodes.iter().zip(&self.rule.weights) {
-            let (x, density) = self.node([cell.low[0] + size[0] * s, cell.low[1] + size[1] * t]);
-            let (tests, potentials) = (self.sample)(x);
-            let weight = weight * size[0] * size[1] * density;
-            for (row, test) in block.iter_mut().zip(tests) {
-                row.iter_mut().zip(potentials).for_each(|(entry, u)| *entry += weight * test * u);
-            }
+            let at = [cell.low[0] + size[0] * s, cell.low[1] + size[1] * t];
+            self.add(at, weight * size[0] * size[1], &mut block);
         }
         block
+    }
+
+    /// Adds the sample at a point of the square to a block.
+    fn add(&self, at: [f64; 2], weight: f64, block: &mut Block) {
+        let (x, density) = self.node(at);
+        let (tests, potentials) = (self.sample)(x);
+        for (row, test) in block.iter_mut().zip(tests) {
+            row.iter_mut().zip(potentials).for_each(|(entry, u)| *entry += weight * density * test * u);
+        }
     }
 
     /// The point of the patch at (s, t) of the square, and the area that a unit of the square is stretched to.

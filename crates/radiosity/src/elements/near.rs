@@ -31,10 +31,11 @@ const PIECE: f64 = 3.0;
 const MOST_POINTS: usize = 24;
 
 impl Polar {
-    /// The rule whose error is about `tolerance` of ∫ |K g|, for a g that is smooth as a polynomial of a `degree` is.
+    /// The rule whose error is about `tolerance` of ∫ |K g|, for a g that is as smooth as a polynomial of a `degree` is, also
+    /// through a bilinear map: those of Q2 on a trapezoid missed 10⁻¹⁰ by a factor of 10 with a point less.
     pub fn new(tolerance: f64, degree: usize) -> Self {
         let rules = (1..=MOST_POINTS).map(|n| gauss_legendre(n, 0.0, 1.0)).collect();
-        Self { rules, digits: -tolerance.ln(), more: 1 + degree.div_ceil(2) }
+        Self { rules, digits: -tolerance.ln(), more: 1 + degree }
     }
 
     /// The rule for a piece of a range of v: n points err by ρ^{−2n} when ρ is the sum of the half axes of the ellipse
