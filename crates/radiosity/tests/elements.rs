@@ -451,8 +451,6 @@ fn orders(walls: &[Polygon], sizes: [f64; 2], degree: Degree, method: Method, to
     let known = Known::new(walls.to_vec(), 0.1 * tolerance);
     let [coarse, fine] = sizes.map(|size| errors(&known, size, degree, method, tolerance));
     let orders: Errors = std::array::from_fn(|k| (coarse[k] / fine[k]).ln() / (sizes[0] / sizes[1]).ln());
-    let shown = |numbers: &Errors| numbers.map(|number| format!("{number:.2e}")).join(" ");
-    println!("{method:?} {degree:?}: orders {orders:.2?}, errors {}", shown(&fine));
     [orders, fine]
 }
 
