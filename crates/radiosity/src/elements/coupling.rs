@@ -91,7 +91,7 @@ impl<'a> Elements<'a> {
         let x = SurfacePoint { position: x, normal: self.space.polygons()[i].normal() };
         let mut sum = V::splat(0.0);
         self.for_each_sight(i, 0..self.space.polygons().len(), |j, sight| {
-            let moments = self.from_point(&x, i, j, sight, 0);
+            let moments = self.at_point(&x, i, j, sight, 0);
             let terms = u[self.space.range(j)].iter().zip(moments);
             sum += terms.fold(V::splat(0.0), |sum, (u, moment)| sum + *u * moment);
         });
@@ -143,7 +143,7 @@ impl<'a> Elements<'a> {
         match &self.test {
             Test::Nodes(_) => {
                 for (a, node) in self.space.nodes(i).enumerate() {
-                    block[a] = self.from_point(&node, i, j, seen, a);
+                    block[a] = self.at_point(&node, i, j, seen, a);
                 }
             }
             Test::Functions(exchange) => {
@@ -157,16 +157,16 @@ impl<'a> Elements<'a> {
     }
 
     /// ∫ V K φ_jb from a point of element i, the `sample`-th that is asked about.
-    fn from_point(&self, x: &SurfacePoint, i: usize, j: usize, seen: Sight, sample: usize) -> [f64; MOST] {
+    fn at_point(&self, x: &SurfacePoint, i: usize, j: usize, seen: Sight, sample: usize) -> [f64; MOST] {
         let polygons = self.space.polygons();
-        let whole = self.moments().from(x, j, &Front::of(&polygons[j], &polygons[i]));
+        let whole = self.moments().at(x, j, &Front::of(&polygons[j], &polygons[i]));
         if whole.iter().all(|moment| *moment == 0.0) {
             return whole;
         }
         match self.certain(i, j, seen) {
             Sight::Clear => whole,
             Sight::Hidden => [0.0; MOST],
-            Sight::Unknown => self.hidden().from_point(x, (i, j), sample, whole),
+            Sight::Unknown => self.hidden().at_point(x, (i, j), sample, whole),
         }
     }
 

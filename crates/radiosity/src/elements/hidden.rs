@@ -24,7 +24,7 @@ pub(super) struct Hidden<'a> {
 
 impl Hidden<'_> {
     /// The moments ∫ V K φ_jb from x, given those with V = 1; `sample` sets points of one element apart.
-    pub fn from_point(&self, x: &SurfacePoint, (i, j): (usize, usize), sample: usize, whole: Local) -> Local {
+    pub fn at_point(&self, x: &SurfacePoint, (i, j): (usize, usize), sample: usize, whole: Local) -> Local {
         let mut block = [[0.0; MOST]; MOST];
         block[0] = whole;
         let factor: f64 = whole.iter().sum();
