@@ -185,7 +185,7 @@ fn moments_are_right_from_far_from_a_millionth_and_from_the_line_of_an_edge() {
                         Front::Whole => vec![polygon.clone()],
                         Front::Pieces(pieces) => pieces.clone(),
                     };
-                    let got = moments.from(x, j, &front);
+                    let got = moments.at(x, j, &front);
                     let factor = point_to_polygon(x.position, x.normal, polygon);
                     assert!((got.iter().sum::<f64>() - factor).abs() < 1e-14);
                     for (b, got) in got.iter().enumerate().take(space.range(j).len()) {
@@ -196,7 +196,6 @@ fn moments_are_right_from_far_from_a_millionth_and_from_the_line_of_an_edge() {
                     }
                 }
             }
-            println!("{degree:?}, {tolerance:e}: worst {worst:.1e} of the factor");
             assert!(worst < 2.0 * tolerance, "{degree:?} {tolerance:e}: {worst:e}");
         }
     }
@@ -225,7 +224,7 @@ fn block(space: &Space<'_>, levels: i32, n: usize) -> Vec<Vec<f64>> {
                 3 => (a.point(s * s, t), 2.0 * s * a.area()),
                 _ => (a.point(s, t), a.density(s, t)),
             };
-            let moment = moments.from(&SurfacePoint { position: at, normal: a.normal() }, 1, &front);
+            let moment = moments.at(&SurfacePoint { position: at, normal: a.normal() }, 1, &front);
             let tests = space.values(0, at);
             for (row, test) in block.iter_mut().zip(tests) {
                 row.iter_mut().zip(moment).for_each(|(entry, m)| *entry += v * w * density * test * m);
@@ -276,9 +275,7 @@ fn patches_that_share_an_edge_or_a_corner_or_leave_a_gap_have_their_blocks() {
             let space = Space::new(&patches.polygons, degree);
             let expected = block(&space, levels, 8);
             let total: f64 = expected.iter().flatten().sum();
-            println!("{name}: exchange {total}");
             for accuracy in [1e-3, 1e-5] {
-                let start = std::time::Instant::now();
                 let coupling = Elements::galerkin(&space, &patches, &visibility, accuracy);
                 let mut rows = vec![0.0; space.range(0).len() * space.dim()];
                 coupling.rows(0, 0, &mut rows);
@@ -288,11 +285,6 @@ fn patches_that_share_an_edge_or_a_corner_or_leave_a_gap_have_their_blocks() {
                         worst = worst.max((got * space.weights()[a] - expected[a][b]).abs());
                     }
                 }
-                println!(
-                    "{name}, {degree:?}, {accuracy:e}: {:.1e} of the exchange, {:?}",
-                    worst / total,
-                    start.elapsed()
-                );
                 assert!(
                     worst < 0.1 * accuracy * total,
                     "{name} {degree:?} {accuracy:e}: {:e}",
@@ -464,10 +456,14 @@ fn assert_orders(walls: &[Polygon], cases: [(Degree, [f64; 2], f64); 3]) {
             let [[worst, mean_square, _, iterated, inside], fine] =
                 orders(walls, sizes, degree, method, tolerance);
             let k = degree.order() as f64;
-            assert!((worst - (k + 1.0)).abs() < 0.25, "maximum: {worst}");
-            assert!((mean_square - (k + 1.0)).abs() < 0.25, "mean square: {mean_square}");
-            assert!(iterated > k + 1.25, "iterated, mean square: {iterated}");
-            assert!(inside > 2.0 * k + 1.6 || fine[4] < tolerance, "iterated, away from edges: {inside}");
+            let what = format!("{method:?} {degree:?}");
+            assert!((worst - (k + 1.0)).abs() < 0.25, "{what}, maximum: {worst}");
+            assert!((mean_square - (k + 1.0)).abs() < 0.25, "{what}, mean square: {mean_square}");
+            assert!(iterated > k + 1.25, "{what}, iterated, mean square: {iterated}");
+            assert!(
+                inside > 2.0 * k + 1.6 || fine[4] < tolerance,
+                "{what}, iterated, away from edges: {inside}"
+            );
         }
     }
 }
@@ -488,7 +484,7 @@ fn rates_on_a_tetrahedron() {
     let cases = [
         (Degree::Constant, [edge / 4.0, edge / 8.0], 1e-4),
         (Degree::Linear, [edge / 3.0, edge / 6.0], 1e-5),
-        (Degree::Quadratic, [edge / 2.0, edge / 4.0], 3e-6),
+        (Degree::Quadratic, [edge / 3.0, edge / 6.0], 3e-6),
     ];
     assert_orders(&tetrahedron(), cases);
 }
@@ -520,7 +516,6 @@ fn a_white_furnace_is_one_in_every_space() {
                     .radiosity
                     .iter()
                     .fold(0.0_f64, |worst, b| worst.max((*b - Spectrum([2.0 / 0.7, 2.5, 5.0])).magnitude()));
-                println!("{degree:?} {method:?}: {worst:.1e} {:?}", found.closure);
                 assert!(worst < error, "{degree:?} {method:?}: {worst:e}");
                 let Closure::Closed { defect, rows } = found.closure else { panic!("a closed room") };
                 assert!(defect < 1e-4 && rows == patches.len(), "{degree:?} {method:?}: {defect:e}");

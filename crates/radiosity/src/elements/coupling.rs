@@ -159,7 +159,7 @@ impl<'a> Elements<'a> {
     /// ∫ V K φ_jb from a point of element i, the `sample`-th that is asked about.
     fn at_point(&self, x: &SurfacePoint, i: usize, j: usize, seen: Sight, sample: usize) -> [f64; MOST] {
         let polygons = self.space.polygons();
-        let whole = self.moments().from(x, j, &Front::of(&polygons[j], &polygons[i]));
+        let whole = self.moments().at(x, j, &Front::of(&polygons[j], &polygons[i]));
         if whole.iter().all(|moment| *moment == 0.0) {
             return whole;
         }

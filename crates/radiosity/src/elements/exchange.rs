@@ -94,7 +94,7 @@ impl<'a> Exchange<'a> {
         let space = self.space();
         let normal = piece.normal();
         let sample = |position| {
-            let moments = self.moments.from(&SurfacePoint { position, normal }, inner, seen);
+            let moments = self.moments.at(&SurfacePoint { position, normal }, inner, seen);
             (space.values(outer, position), moments)
         };
         let weights = &space.weights()[space.range(outer)];

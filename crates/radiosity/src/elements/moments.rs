@@ -71,7 +71,7 @@ impl<'a> Moments<'a> {
     ///
     /// Their sum is the form factor to rounding: it is Lambert's formula, ∫ K φ_b = φ_b(y₀) ∫ K + ∫ K (φ_b − φ_b(y₀)), and the
     /// quadrature's error is only in how it is shared out.
-    pub fn from(&self, x: &SurfacePoint, j: usize, front: &Front) -> Local {
+    pub fn at(&self, x: &SurfacePoint, j: usize, front: &Front) -> Local {
         let polygon = &self.space.polygons()[j];
         let factor = point_to_polygon(x.position, x.normal, polygon);
         // Below that the point is in the plane of the patch, or beside it, but for rounding.
