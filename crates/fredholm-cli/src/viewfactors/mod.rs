@@ -46,11 +46,9 @@ pub fn command(args: &Arguments) -> Result<Ending> {
     let mut stages = Stages::default();
     let loaded = timed(&mut stages.load, || load_unlit(&args.mesh))?;
     let (scene, faces) = (&loaded.scene, faces(&loaded));
-    loaded.warnings.iter().try_for_each(warn)?;
-    let examined = timed(&mut stages.load, || examine(scene, &loaded.faces));
-    examined.findings.iter().try_for_each(|finding| warn(&format!("{}: {finding}", args.mesh.display())))?;
     check_memory(&faces, scene, args)?;
     let outputs = Outputs::prepare(args)?;
+    let examined = timed(&mut stages.load, || examine(scene, &loaded.faces));
 
     let polygons = scene.polygons();
     let visibility = timed(&mut stages.load, || Visibility::new(&polygons));
@@ -93,6 +91,9 @@ pub fn command(args: &Arguments) -> Result<Ending> {
         peak_memory_bytes: memory::peak(),
         files,
     };
+    // What is refused has one message; what is not has these beside its table.
+    loaded.warnings.iter().try_for_each(warn)?;
+    examined.findings.iter().try_for_each(|finding| warn(&format!("{}: {finding}", args.mesh.display())))?;
     json::stream(outputs.json, &report, &table(&report, &rows.factors))?;
     Ok(if report.is_met() { Ending::Converged } else { Ending::NotConverged })
 }
