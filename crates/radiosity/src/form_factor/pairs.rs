@@ -112,7 +112,9 @@ impl<'a> Pairs<'a> {
             hidden.value += value;
             hidden.error += error;
         }
-        let value = (whole.value - hidden.value).max(0.0);
+        let rest = whole.value - hidden.value;
+        // What rounding leaves of a whole that is hidden is nothing: files of sparse matrices are for zeros.
+        let value = if rest > ROUNDING * whole.value { rest } else { 0.0 };
         Exchange { value, error: (whole.error + hidden.error).min(whole.value) }
     }
 
@@ -161,6 +163,9 @@ impl<'a> Pairs<'a> {
 /// relative to what they were in full sight.
 const IN_SIGHT: f64 = 0.1;
 const PARTLY: f64 = 0.8;
+
+/// A difference of two sums of some hundred terms is of rounding below this part of them.
+const ROUNDING: f64 = 1e-13;
 
 fn bounds(polygon: &Polygon) -> [DVec3; 2] {
     let start = [DVec3::INFINITY, DVec3::NEG_INFINITY];

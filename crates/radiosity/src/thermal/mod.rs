@@ -23,8 +23,8 @@
 //! let powers = radiosity::thermal::emissive_power(500.0) - radiosity::thermal::emissive_power(300.0);
 //! let q = powers / (2.0 * (1.0 / 0.8 + 1.0 / 0.05 - 1.0));
 //! assert!((answer.nodes[0].heat_flux - q).abs() < 1e-10);
-//! // (500⁴ + 300⁴)/2 is the fourth power of 433.6 K.
-//! assert!(answer.nodes[1].temperature.is_some_and(|kelvin| (kelvin - 433.6).abs() < 0.1));
+//! // (500⁴ + 300⁴)/2 is the fourth power of 433.5 K.
+//! assert!(answer.nodes[1].temperature.is_some_and(|kelvin| (kelvin - 433.5).abs() < 0.1));
 //! # Ok::<(), radiosity::thermal::ThermalError>(())
 //! ```
 
