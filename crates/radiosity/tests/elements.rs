@@ -387,7 +387,7 @@ impl Known {
 }
 
 /// How far a solution is from B: at the worst point and in the mean square; and, iterated, at the worst point, in the mean
-/// square, and at points of the walls away from their edges.
+/// square, and in that of points of the walls away from their edges.
 type Errors = [f64; 5];
 
 fn errors(known: &Known, size: f64, degree: Degree, method: Method, tolerance: f64) -> Errors {
@@ -427,14 +427,19 @@ fn errors(known: &Known, size: f64, degree: Degree, method: Method, tolerance: f
             errors[3] += error * error * w * density(s, t);
         }
     }
+    let inner = |wall: &Polygon| {
+        let (middle, corners) = (wall.centroid(), wall.vertices().to_vec());
+        corners.into_iter().flat_map(move |v| [0.1, 0.2, 0.3].map(|part| middle + part * (v - middle)))
+    };
+    let mut count = 0.0;
     for (k, wall) in (0..).zip(&known.walls) {
-        let middle = wall.centroid();
-        for corner in wall.vertices() {
-            let position = middle + 0.3 * (*corner - middle);
+        for position in inner(wall) {
             let i = patches.patch_at(k, position);
-            errors[4] = errors[4].max(iterated(i, &SurfacePoint { position, normal: wall.normal() }));
+            errors[4] += iterated(i, &SurfacePoint { position, normal: wall.normal() }).powi(2);
+            count += 1.0;
         }
     }
+    errors[4] = (errors[4] / count).sqrt();
     [errors[0], errors[1].sqrt(), errors[2], errors[3].sqrt(), errors[4]]
 }
 
@@ -443,27 +448,56 @@ fn orders(walls: &[Polygon], sizes: [f64; 2], degree: Degree, method: Method, to
     let known = Known::new(walls.to_vec(), 0.1 * tolerance);
     let [coarse, fine] = sizes.map(|size| errors(&known, size, degree, method, tolerance));
     let orders: Errors = std::array::from_fn(|k| (coarse[k] / fine[k]).ln() / (sizes[0] / sizes[1]).ln());
+    eprintln!("{method:?} {degree:?}: {orders:.2?}");
     [orders, fine]
 }
 
-/// Order k + 1 in the maximum and the mean square. Iterated: half an order more in the mean square, and twice the order away
-/// from the edges of the room. Nearer than h to an edge the kernel is not smooth at the scale of an element, and there is
-/// no gain in the maximum.
+/// Order k + 1 in the maximum and the mean square. Iterated, there is half an order more in the mean square: nearer than h to
+/// an edge the kernel is not smooth at the scale of an element, and in the maximum nothing is gained. Away from the edges there
+/// is at least an order more, for constants the double. More would need an adjoint solution that is smooth to the edges.
 #[track_caller]
 fn assert_orders(walls: &[Polygon], cases: [(Degree, [f64; 2], f64); 3]) {
     for (degree, sizes, tolerance) in cases {
         for (method, tolerance) in [(Method::Collocation, 0.01 * tolerance), (Method::Galerkin, tolerance)] {
-            let [[worst, mean_square, _, iterated, inside], fine] =
+            let [[worst, mean_square, _, iterated, inside], _] =
                 orders(walls, sizes, degree, method, tolerance);
             let k = degree.order() as f64;
             let what = format!("{method:?} {degree:?}");
             assert!((worst - (k + 1.0)).abs() < 0.25, "{what}, maximum: {worst}");
             assert!((mean_square - (k + 1.0)).abs() < 0.25, "{what}, mean square: {mean_square}");
             assert!(iterated > k + 1.25, "{what}, iterated, mean square: {iterated}");
-            assert!(
-                inside > 2.0 * k + 1.6 || fine[4] < tolerance,
-                "{what}, iterated, away from edges: {inside}"
-            );
+            assert!(inside > k + 1.75, "{what}, iterated, away from edges: {inside}");
+        }
+    }
+}
+
+/// Twice the order everywhere for the iterated solution, where the kernel is smooth: between plates that do not touch. The
+/// nodes of collocation are Gauss's on squares, exact for degree 2k + 1; on triangles for 2k, and an order may be missing.
+#[test]
+fn iterated_solutions_have_twice_the_order_where_nothing_touches() {
+    let square =
+        [parallelogram(DVec3::ZERO, DVec3::X, DVec3::Y), parallelogram(p(0.2, 0.1, 1.0), DVec3::Y, DVec3::X)];
+    let triangle = square.each_ref().map(|square| {
+        let v = square.vertices();
+        Polygon::triangle(v[0], v[1], v[3])
+    });
+    for plates in [square, triangle] {
+        let triangles = plates[0].vertices().len() == 3;
+        for (degree, sizes) in
+            [(Degree::Constant, [0.2, 0.1]), (Degree::Linear, [0.4, 0.2]), (Degree::Quadratic, [0.5, 0.25])]
+        {
+            for method in [Method::Collocation, Method::Galerkin] {
+                let [[worst, mean_square, iterated, iterated_square, _], _] =
+                    orders(&plates, sizes, degree, method, 1e-10);
+                let k = degree.order() as f64;
+                let least =
+                    if triangles && method == Method::Collocation { 2.0 * k + 1.0 } else { 2.0 * k + 2.0 };
+                let what = format!("{method:?} {degree:?}, triangles: {triangles}");
+                assert!((worst - (k + 1.0)).abs() < 0.25, "{what}, maximum: {worst}");
+                assert!((mean_square - (k + 1.0)).abs() < 0.25, "{what}, mean square: {mean_square}");
+                assert!(iterated > least - 0.25, "{what}, iterated, maximum: {iterated}");
+                assert!(iterated_square > least - 0.25, "{what}, iterated, mean square: {iterated_square}");
+            }
         }
     }
 }
