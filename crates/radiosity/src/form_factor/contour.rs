@@ -108,10 +108,10 @@ fn parallel(e: &Edge, f: &Edge) -> f64 {
     forwards * (psi(q) - psi(p) - psi(q - e.length) + psi(p - e.length))
 }
 
-/// Halvings of an edge towards a corner that it shares: what is left is below 2⁻⁵² of its square.
+/// Halvings of an edge towards a corner that it shares, at most: what is left is 2⁻⁴⁰ of it, and weighs its square.
 const DEEPEST: u32 = 40;
 
-/// Most nodes on a panel, and the least ρ with which it is not halved. Another ρ between 2 and 4 takes a tenth more time.
+/// Most nodes on a panel, and the least ρ with which it is not halved: with it sixteen nodes err by 10⁻¹³.
 const MOST: usize = 16;
 const LEAST_RHO: f64 = 2.6;
 

@@ -30,8 +30,8 @@ impl End {
 
     /// Whether a box of the node reaches into the box around both, and the ball about it into the capsule around both.
     ///
-    /// The second is not implied by the first where the two are far apart on a slant. For a box in a box of 5 568 triangles
-    /// these tests settle a third of all pairs, at a tenth of what a shaft costs.
+    /// The second is not implied by the first where the two are far apart on a slant. All factors of a box in a box of 5 568
+    /// triangles take a fifth less time with these tests before a shaft is made.
     #[inline]
     pub(super) fn may_meet(&self, other: &Self, node: &Node) -> bool {
         let (low, high) = (self.low.min(other.low), self.high.max(other.high));
