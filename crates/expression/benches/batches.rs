@@ -35,7 +35,7 @@ fn formula(bencher: Bencher<'_, '_>, n: usize, text: &str) {
         kernel.fill(&[Column::Same(black_box(0.3)), Column::Each(black_box(&y))], &mut out);
         black_box(&mut out);
     };
-    row(); // the first call makes the registers, and would set divan's idea of how long one takes
+    row(); // the first call makes the registers
     bencher.counter(ItemsCount::new(n)).bench_local(row);
 }
 
@@ -55,21 +55,22 @@ fn exact(bencher: Bencher<'_, '_>, n: usize, text: &str) {
     bencher.counter(ItemsCount::new(n)).bench_local(row);
 }
 
-/// A kernel in a module of its own: `native` is the closure, `batch` the formula, `exact` that with the difference.
+/// A kernel in a module of its own: `native` is the closure, `batch` the formula, `exact` that with the difference. A
+/// sample is 200 calls: left to itself, divan may take a single one, which is less than the clock can tell.
 macro_rules! kernels {
     ($($name:ident: $text:literal, $closure:expr;)*) => {$(
         mod $name {
-            #[divan::bench(args = super::ROW)]
+            #[divan::bench(args = super::ROW, sample_size = 200)]
             fn native(bencher: divan::Bencher<'_, '_>, n: usize) {
                 super::closure(bencher, n, $closure);
             }
 
-            #[divan::bench(args = super::ROW)]
+            #[divan::bench(args = super::ROW, sample_size = 200)]
             fn batch(bencher: divan::Bencher<'_, '_>, n: usize) {
                 super::formula(bencher, n, $text);
             }
 
-            #[divan::bench(args = super::ROW)]
+            #[divan::bench(args = super::ROW, sample_size = 200)]
             fn exact(bencher: divan::Bencher<'_, '_>, n: usize) {
                 super::exact(bencher, n, $text);
             }

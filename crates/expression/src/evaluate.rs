@@ -2,8 +2,7 @@
 
 use crate::graph::Kind;
 use crate::lanes::{self, Block, LANES};
-use crate::operation::Operation;
-use crate::program::{Action, Program, Step};
+use crate::program::{Program, Step};
 use num_complex::Complex;
 use std::cell::RefCell;
 
@@ -44,44 +43,22 @@ impl Program {
     pub fn at_complex(&self, point: &[f64]) -> C {
         REGISTERS.with_borrow_mut(|registers| {
             registers.point(self, point);
-            match self.kind {
-                Kind::Real => registers.real[self.root].0[0].into(),
-                Kind::Complex => registers.complex[self.root].0[0],
+            if self.kind == Kind::Real {
+                registers.real[self.root].0[0].into()
+            } else {
+                registers.complex[self.root].0[0]
             }
         })
     }
 
     /// The real values, one a lane.
     pub fn fill(&self, columns: &[Column<'_>], out: &mut [f64]) {
-        REGISTERS.with_borrow_mut(|registers| {
-            let varying = registers.uniform(self, columns, out.len());
-            for (block, out) in out.chunks_mut(LANES).enumerate() {
-                let window = Window { columns, start: block * LANES, lanes: out.len() };
-                match self.steps.split_last() {
-                    // the last step, which is the root's, writes where the values are wanted
-                    Some((last, before)) if last.depends & varying != 0 => {
-                        registers.varying(before, varying, window);
-                        last.real_value(out, &registers.real, &registers.complex, window);
-                    }
-                    _ => out.copy_from_slice(window.real(&registers.real, self.root)),
-                }
-            }
-        });
+        REGISTERS.with_borrow_mut(|registers| registers.fill(self, columns, out));
     }
 
     /// The values as complex numbers, one a lane.
     pub fn fill_complex(&self, columns: &[Column<'_>], out: &mut [C]) {
-        REGISTERS.with_borrow_mut(|registers| {
-            let varying = registers.uniform(self, columns, out.len());
-            for (block, out) in out.chunks_mut(LANES).enumerate() {
-                let window = Window { columns, start: block * LANES, lanes: out.len() };
-                registers.varying(&self.steps, varying, window);
-                match self.kind {
-                    Kind::Real => lanes::promoted(out, window.real(&registers.real, self.root)),
-                    Kind::Complex => out.copy_from_slice(window.complex(&registers.complex, self.root)),
-                }
-            }
-        });
+        REGISTERS.with_borrow_mut(|registers| registers.fill_complex(self, columns, out));
     }
 }
 
@@ -112,28 +89,57 @@ impl Registers {
     fn point(&mut self, program: &Program, point: &[f64]) {
         self.prepare(program);
         self.real.iter_mut().zip(point).for_each(|(register, value)| register.0[0] = *value);
-        program.steps.iter().for_each(|step| self.run(step, Window::POINT));
+        program.steps.iter().for_each(|step| self.run(step, 1));
     }
 
-    /// What is the same in all lanes; then bit k tells whether column k is not.
+    /// The real values. A function of its own, of which only a call is compiled into what looks for the registers.
+    #[inline(never)]
+    fn fill(&mut self, program: &Program, columns: &[Column<'_>], out: &mut [f64]) {
+        for (block, out) in out.chunks_mut(LANES).enumerate() {
+            let varying = self.load(program, columns, block * LANES, out.len());
+            match program.steps.split_last() {
+                // the last step, which is the root's, writes where the values are wanted
+                Some((last, before)) if last.depends & varying != 0 => {
+                    self.varying(before, varying, out.len());
+                    last.real_value(&self.real, &self.complex, out);
+                }
+                _ => out.copy_from_slice(self.real[program.root].lanes(out.len())),
+            }
+        }
+    }
+
+    /// The values as complex numbers.
+    #[inline(never)]
+    fn fill_complex(&mut self, program: &Program, columns: &[Column<'_>], out: &mut [C]) {
+        for (block, out) in out.chunks_mut(LANES).enumerate() {
+            let varying = self.load(program, columns, block * LANES, out.len());
+            self.varying(&program.steps, varying, out.len());
+            if program.kind == Kind::Real {
+                lanes::promoted(out, self.real[program.root].lanes(out.len()));
+            } else {
+                out.copy_from_slice(self.complex[program.root].lanes(out.len()));
+            }
+        }
+    }
+
+    /// Some lanes of the columns; with the first of them, what is the same in all. Bit k tells whether column k is not.
     #[inline(always)]
-    fn uniform(&mut self, program: &Program, columns: &[Column<'_>], lanes: usize) -> u64 {
+    fn load(&mut self, program: &Program, columns: &[Column<'_>], start: usize, lanes: usize) -> u64 {
         self.prepare(program);
         let mut varying = 0;
         for (k, (register, column)) in self.real.iter_mut().zip(columns).enumerate() {
             match column {
                 Column::Same(value) => register.spread(*value, lanes),
-                Column::Each(_) => varying |= 1 << k,
+                Column::Each(values) if program.depends >> k & 1 == 1 => {
+                    varying |= 1 << k;
+                    register.load(&values[start..start + lanes]);
+                }
+                Column::Each(_) => {}
             }
         }
-        for step in program.steps.iter().filter(|step| step.depends & varying == 0) {
-            self.run(step, Window::POINT);
-            if step.real {
-                let register = &mut self.real[step.register];
-                register.spread(register.0[0], lanes);
-            } else {
-                let register = &mut self.complex[step.register];
-                register.spread(register.0[0], lanes);
+        if start == 0 {
+            for step in program.steps.iter().filter(|step| step.depends & varying == 0) {
+                self.once(step, lanes);
             }
         }
         varying
@@ -141,99 +147,47 @@ impl Registers {
 
     /// What is not, of these steps.
     #[inline(always)]
-    fn varying(&mut self, steps: &[Step], varying: u64, window: Window<'_>) {
+    fn varying(&mut self, steps: &[Step], varying: u64, lanes: usize) {
         for step in steps.iter().filter(|step| step.depends & varying != 0) {
-            self.run(step, window);
+            self.run(step, lanes);
         }
     }
 
     /// One step. Its register lies behind those that it reads.
     #[inline(always)]
-    fn run(&mut self, step: &Step, window: Window<'_>) {
+    fn run(&mut self, step: &Step, lanes: usize) {
         if step.real {
             let (before, rest) = self.real.split_at_mut(step.register);
-            step.real_value(&mut rest[0].0[..window.lanes], before, &self.complex, window);
+            step.real_value(before, &self.complex, &mut rest[0].0[..lanes]);
         } else {
             let (before, rest) = self.complex.split_at_mut(step.register);
-            step.complex_value(&mut rest[0].0[..window.lanes], &self.real, before, window);
-        }
-    }
-}
-
-/// Some lanes, at most as many as a register has: columns are read in place.
-#[derive(Clone, Copy)]
-struct Window<'a> {
-    columns: &'a [Column<'a>],
-    start: usize,
-    lanes: usize,
-}
-
-impl<'a> Window<'a> {
-    /// One lane, and the columns are in their registers.
-    const POINT: Window<'static> = Window { columns: &[], start: 0, lanes: 1 };
-
-    /// An argument: a column in place, or a register.
-    #[inline(always)]
-    fn real<'b>(self, registers: &'b [Block<f64>], argument: usize) -> &'b [f64]
-    where
-        'a: 'b,
-    {
-        match self.columns.get(argument) {
-            Some(Column::Each(values)) => &values[self.start..self.start + self.lanes],
-            _ => &registers[argument].0[..self.lanes],
+            lanes::complex(step, &self.real, before, &mut rest[0].0[..lanes]);
         }
     }
 
-    /// An argument that is complex.
-    fn complex(self, registers: &[Block<C>], argument: usize) -> &[C] {
-        &registers[argument].0[..self.lanes]
+    /// One step, whose value is the same in so many lanes. It is found beside its register, whose first lane would not be
+    /// written again with the others, and vectors that were written in two parts are read slowly.
+    #[inline(never)]
+    fn once(&mut self, step: &Step, lanes: usize) {
+        if step.real {
+            let mut value = [0.0];
+            step.real_value(&self.real, &self.complex, &mut value);
+            self.real[step.register].spread(value[0], lanes);
+        } else {
+            let mut value = [C::ZERO];
+            lanes::complex(step, &self.real, &self.complex, &mut value);
+            self.complex[step.register].spread(value[0], lanes);
+        }
     }
 }
 
 impl Step {
     #[inline(always)]
-    fn real_value(&self, out: &mut [f64], real: &[Block<f64>], complex: &[Block<C>], window: Window<'_>) {
+    fn real_value(&self, real: &[Block<f64>], complex: &[Block<C>], out: &mut [f64]) {
         if self.real_arguments[0] {
-            let [a, b, c] = self.arguments;
-            let arguments = [window.real(real, a), window.real(real, b), window.real(real, c)];
-            (self.kernel)(&self.action, out, arguments);
+            (self.kernel)(self, real, out);
         } else {
-            self.real_of_complex(out, complex, window);
-        }
-    }
-
-    #[inline(never)]
-    fn real_of_complex(&self, out: &mut [f64], complex: &[Block<C>], window: Window<'_>) {
-        let [a, b, _] = self.arguments;
-        let complex = |argument: usize| window.complex(complex, argument);
-        match self.action {
-            Action::One(Operation::Unary(operation)) => lanes::real_of_complex(operation, out, complex(a)),
-            Action::One(Operation::Binary(operation)) => {
-                lanes::comparison(operation, out, complex(a), complex(b));
-            }
-            _ => out.fill(f64::NAN), // the others are never real
-        }
-    }
-
-    #[inline(never)]
-    fn complex_value(&self, out: &mut [C], real: &[Block<f64>], complex: &[Block<C>], window: Window<'_>) {
-        let [a, b, c] = self.arguments;
-        let real = |argument: usize| window.real(real, argument);
-        let complex = |argument: usize| window.complex(complex, argument);
-        let undefined = C::new(f64::NAN, f64::NAN);
-        let Action::One(operation) = self.action else { return }; // two are always real
-        match operation {
-            Operation::Unary(operation) => lanes::complex_unary(operation, out, complex(a)),
-            Operation::Binary(operation) => match self.real_arguments {
-                [true, false, _] => lanes::arithmetic(operation, out, real(a), complex(b)),
-                [false, true, _] => lanes::arithmetic(operation, out, complex(a), real(b)),
-                _ => lanes::complex_binary(operation, out, complex(a), complex(b)),
-            },
-            Operation::Power(n) => lanes::complex_powers(n, out, complex(a)),
-            Operation::Select => lanes::complex_selection(out, real(a), complex(b), complex(c), undefined),
-            Operation::Promote => lanes::promoted(out, real(a)),
-            // these are no steps of complex value
-            Operation::Constant(_) | Operation::Variable(_) | Operation::BySign => out.fill(undefined),
+            lanes::real_of_complex(self, complex, out);
         }
     }
 }

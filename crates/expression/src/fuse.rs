@@ -30,7 +30,7 @@ pub(crate) enum Outer {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Fusion {
     pub inner: Node,
-    pub first: Binary,
+    pub first: Operation,
     pub second: Outer,
     /// The other argument of the second operation, or any if it has one alone.
     pub other: Node,
@@ -86,11 +86,10 @@ fn candidates(graph: &Graph, node: Node) -> [Option<Fusion>; 2] {
 }
 
 /// The operation of a node, if it is one that can come first.
-fn quick(graph: &Graph, node: Node) -> Option<Binary> {
+fn quick(graph: &Graph, node: Node) -> Option<Operation> {
     use Binary::{Add, Div, Max, Min, Mul, Sub};
-    let Operation::Binary(operation @ (Add | Sub | Mul | Div | Min | Max)) = graph.facts(node).operation
-    else {
-        return None;
-    };
-    graph.facts(node).arguments.iter().all(|argument| graph.is_real(*argument)).then_some(operation)
+    let facts = graph.facts(node);
+    let quick =
+        matches!(facts.operation, Operation::Binary(Add | Sub | Mul | Div | Min | Max) | Operation::BySign);
+    (quick && facts.arguments.iter().all(|argument| graph.is_real(*argument))).then_some(facts.operation)
 }

@@ -3,7 +3,7 @@
 use crate::complex;
 use crate::fuse::Outer;
 use crate::operation::{Binary, Operation, Unary, by_sign, power, select};
-use crate::program::Action;
+use crate::program::{Action, Step};
 use num_complex::Complex;
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -20,17 +20,36 @@ impl<T: Copy> Block<T> {
     #[inline(always)]
     pub fn spread(&mut self, value: T, lanes: usize) {
         let (pieces, _) = self.0.as_chunks_mut::<16>();
-        pieces.iter_mut().take(lanes.div_ceil(16)).for_each(|piece| piece.fill(value));
+        for (k, piece) in pieces.iter_mut().enumerate() {
+            if 16 * k < lanes {
+                piece.fill(value);
+            }
+        }
+    }
+
+    /// A value for each lane, by pieces of fixed length: to copy any length is a call.
+    #[inline(always)]
+    pub fn load(&mut self, values: &[T]) {
+        let (pieces, rest) = values.as_chunks::<8>();
+        let (whole, _) = self.0.as_chunks_mut::<8>();
+        whole.iter_mut().zip(pieces).for_each(|(to, from)| *to = *from);
+        self.0[8 * pieces.len()..].iter_mut().zip(rest).for_each(|(to, from)| *to = *from);
+    }
+
+    /// So many lanes.
+    #[inline(always)]
+    pub fn lanes(&self, lanes: usize) -> &[T] {
+        &self.0[..lanes]
     }
 }
 
 type C = Complex<f64>;
 
-/// A loop that does an action of real numbers alone: out of three arguments, of which it may need fewer.
+/// A loop that does a step of real numbers alone.
 ///
 /// The loops of quick operations are chosen when a program is made; to find them for each block would take as long as
 /// they do.
-pub(crate) type Kernel = fn(&Action, &mut [f64], [&[f64]; 3]);
+pub(crate) type Kernel = fn(&Step, &[Block<f64>], &mut [f64]);
 
 /// The loop of an action.
 pub(crate) fn kernel(action: Action) -> Kernel {
@@ -40,9 +59,11 @@ pub(crate) fn kernel(action: Action) -> Kernel {
         Action::One(Operation::Binary(operation)) => binary(operation),
         Action::One(Operation::Power(n)) => powers(n),
         Action::One(Operation::Select) => {
-            |_, out, arguments| quick(out, arguments, |c, a, b| select(c, a, b, f64::NAN))
+            |step, real, out| quick(step, real, out, |[c, a, b]| select(c, a, b, f64::NAN))
         }
-        Action::One(Operation::BySign) => |_, out, arguments| quick(out, arguments, by_sign),
+        Action::One(Operation::BySign) => {
+            |step, real, out| quick(step, real, out, |[c, a, b]| by_sign(c, a, b))
+        }
         Action::One(_) => slow,
     }
 }
@@ -51,8 +72,10 @@ fn unary(operation: Unary) -> Kernel {
     macro_rules! run {
         (quick: $($quick:ident),*; slow: $($slow:ident),*) => {
             match operation {
-                $(Unary::$quick => |_, out, arguments| quick(out, arguments, |a, _, _| Unary::$quick.at(a)),)*
-                $(Unary::$slow => |_, out, [a, ..]| map(out, a, |a| Unary::$slow.at(a)),)*
+                $(Unary::$quick => |step, real, out| quick(step, real, out, |[a]| Unary::$quick.at(a)),)*
+                $(Unary::$slow => |step, real, out| {
+                    map(out, real[step.arguments[0]].lanes(out.len()), |a| Unary::$slow.at(a))
+                },)*
                 _ => slow,
             }
         };
@@ -64,7 +87,7 @@ fn binary(operation: Binary) -> Kernel {
     macro_rules! run {
         ($($quick:ident),*) => {
             match operation {
-                $(Binary::$quick => |_, out, arguments| quick(out, arguments, |a, b, _| Binary::$quick.at(a, b)),)*
+                $(Binary::$quick => |step, real, out| quick(step, real, out, |[a, b]| Binary::$quick.at(a, b)),)*
                 _ => slow,
             }
         };
@@ -77,7 +100,7 @@ fn powers(n: i32) -> Kernel {
     macro_rules! run {
         ($($quick:literal),*) => {
             match n {
-                $($quick => |_, out, arguments| quick(out, arguments, |a, _, _| power(a, $quick)),)*
+                $($quick => |step, real, out| quick(step, real, out, |[a]| power(a, $quick)),)*
                 _ => slow,
             }
         };
@@ -85,29 +108,31 @@ fn powers(n: i32) -> Kernel {
     run!(2, 3, 4, -1, -2)
 }
 
-/// `second` of c and of what `first` makes of a and b.
-fn fused(first: Binary, second: Outer) -> Kernel {
-    macro_rules! then {
-        ($first:ident: $($second:ident => $value:expr),*) => {
+/// `second` of the last argument and of what `first` makes of those before.
+fn fused(first: Operation, second: Outer) -> Kernel {
+    macro_rules! run {
+        (|$arguments:pat_param| $first:expr, $last:expr; $($second:ident => $value:expr),*) => {
             match second {
-                $(Outer::$second => |_, out, arguments| {
-                    quick(out, arguments, |a, b, c| {
+                $(Outer::$second => |step, real, out| {
+                    quick(step, real, out, |$arguments| {
                         let value: fn(f64, f64) -> f64 = $value;
-                        value(Binary::$first.at(a, b), c)
+                        value($first, $last)
                     })
                 },)*
             }
         };
-    }
-    macro_rules! run {
+        (|$arguments:pat_param| $first:expr, $last:expr) => {
+            run!(
+                |$arguments| $first, $last;
+                Add => |r, c| r + c, Sub => |r, c| r - c, SubFrom => |r, c| c - r,
+                Mul => |r, c| r * c, Div => |r, c| r / c, DivInto => |r, c| c / r,
+                Square => |r, _| r * r, Abs => |r, _| r.abs(), Neg => |r, _| -r
+            )
+        };
         ($($first:ident),*) => {
             match first {
-                $(Binary::$first => then!(
-                    $first:
-                    Add => |r, c| r + c, Sub => |r, c| r - c, SubFrom => |r, c| c - r,
-                    Mul => |r, c| r * c, Div => |r, c| r / c, DivInto => |r, c| c / r,
-                    Square => |r, _| r * r, Abs => |r, _| r.abs(), Neg => |r, _| -r
-                ),)*
+                $(Operation::Binary(Binary::$first) => run!(|[a, b, last]| Binary::$first.at(a, b), last),)*
+                Operation::BySign => run!(|[c, a, b, last]| by_sign(c, a, b), last),
                 _ => slow,
             }
         };
@@ -115,19 +140,20 @@ fn fused(first: Binary, second: Outer) -> Kernel {
     run!(Add, Sub, Mul, Div, Min, Max)
 }
 
-/// f of three, in a loop that becomes vector instructions: out of slices that are known to be of one length.
+/// f of the arguments, in a loop that becomes vector instructions: over slices that are known to be of one length.
 #[inline(always)]
-fn quick(out: &mut [f64], [a, b, c]: [&[f64]; 3], f: impl Fn(f64, f64, f64) -> f64) {
+fn quick<const N: usize>(step: &Step, real: &[Block<f64>], out: &mut [f64], f: impl Fn([f64; N]) -> f64) {
     let lanes = out.len();
-    let (a, b, c) = (&a[..lanes], &b[..lanes], &c[..lanes]);
+    let arguments: [_; N] = std::array::from_fn(|k| real[step.arguments[k]].lanes(lanes));
     for lane in 0..lanes {
-        out[lane] = f(a[lane], b[lane], c[lane]);
+        out[lane] = f(arguments.map(|argument| argument[lane]));
     }
 }
 
 /// An operation of one argument or two that takes longer than to find it.
-fn slow(action: &Action, out: &mut [f64], [a, b, _]: [&[f64]; 3]) {
-    match *action {
+fn slow(step: &Step, real: &[Block<f64>], out: &mut [f64]) {
+    let [a, b, ..] = step.arguments.map(|register| real[register].lanes(out.len()));
+    match step.action {
         Action::One(Operation::Unary(operation)) => map(out, a, |a| operation.at(a)),
         Action::One(Operation::Binary(operation)) => map2(out, a, b, |a, b| operation.at(a, b)),
         Action::One(Operation::Power(n)) => map(out, a, |a| power(a, n)),
@@ -147,33 +173,52 @@ fn map2<A: Copy, B: Copy, O>(out: &mut [O], a: &[A], b: &[B], f: impl Fn(A, B) -
     out.iter_mut().zip(a.iter().zip(b)).for_each(|(out, (a, b))| *out = f(*a, *b));
 }
 
-/// The second where the first is not zero, else the third.
-pub(crate) fn complex_selection(out: &mut [C], condition: &[f64], a: &[C], b: &[C], undefined: C) {
-    for ((out, c), (a, b)) in out.iter_mut().zip(condition).zip(a.iter().zip(b)) {
-        *out = select(*c, *a, *b, undefined);
+/// A real step of complex arguments.
+#[inline(never)]
+pub(crate) fn real_of_complex(step: &Step, complex: &[Block<C>], out: &mut [f64]) {
+    let [a, b, ..] = step.arguments.map(|register| complex[register].lanes(out.len()));
+    match step.action {
+        Action::One(Operation::Unary(operation)) => map(out, a, |a| complex::real_unary(operation, a)),
+        Action::One(Operation::Binary(operation)) => {
+            map2(out, a, b, |a, b| complex::compare(operation, a, b));
+        }
+        _ => out.fill(f64::NAN), // the others are never real
     }
 }
 
-/// A complex operation of one argument.
-pub(crate) fn complex_unary(operation: Unary, out: &mut [C], a: &[C]) {
-    map(out, a, |a| complex::unary(operation, a));
-}
-
-/// An operation of one complex argument whose value is real.
-pub(crate) fn real_of_complex(operation: Unary, out: &mut [f64], a: &[C]) {
-    map(out, a, |a| complex::real_unary(operation, a));
-}
-
-/// A complex operation of two arguments.
-pub(crate) fn complex_binary(operation: Binary, out: &mut [C], a: &[C], b: &[C]) {
+/// A step of complex value.
+#[inline(never)]
+pub(crate) fn complex(step: &Step, real: &[Block<f64>], complex: &[Block<C>], out: &mut [C]) {
+    let lanes = out.len();
+    let [a, b, c, _] = step.arguments;
+    let real = |register: usize| real[register].lanes(lanes);
+    let complex = |register: usize| complex[register].lanes(lanes);
+    let undefined = C::new(f64::NAN, f64::NAN);
+    let Action::One(operation) = step.action else { return }; // two are always real
     match operation {
-        Binary::Pow => map2(out, a, b, complex::pow),
-        other => arithmetic(other, out, a, b),
+        Operation::Unary(operation) => map(out, complex(a), |a| complex::unary(operation, a)),
+        Operation::Binary(Binary::Pow) => map2(out, complex(a), complex(b), complex::pow),
+        Operation::Binary(operation) => match step.real_arguments {
+            [true, false, ..] => arithmetic(operation, out, real(a), complex(b)),
+            [false, true, ..] => arithmetic(operation, out, complex(a), real(b)),
+            _ => arithmetic(operation, out, complex(a), complex(b)),
+        },
+        Operation::Power(n) => map(out, complex(a), |a| a.powi(n)),
+        Operation::Select => {
+            for (out, (c, (a, b))) in
+                out.iter_mut().zip(real(a).iter().zip(complex(b).iter().zip(complex(c))))
+            {
+                *out = select(*c, *a, *b, undefined);
+            }
+        }
+        Operation::Promote => promoted(out, real(a)),
+        // these are no steps of complex value
+        Operation::Constant(_) | Operation::Variable(_) | Operation::BySign => out.fill(undefined),
     }
 }
 
 /// + − × ÷, one argument of which may be real: by real arithmetic, without products by a zero imaginary part.
-pub(crate) fn arithmetic<A, B>(operation: Binary, out: &mut [C], a: &[A], b: &[B])
+fn arithmetic<A, B>(operation: Binary, out: &mut [C], a: &[A], b: &[B])
 where
     A: Copy + Add<B, Output = C> + Sub<B, Output = C> + Mul<B, Output = C> + Div<B, Output = C>,
     B: Copy,
@@ -184,16 +229,6 @@ where
         Binary::Mul => map2(out, a, b, |a, b| a * b),
         _ => map2(out, a, b, |a, b| a / b),
     }
-}
-
-/// Whether two complex numbers are equal, or not.
-pub(crate) fn comparison(operation: Binary, out: &mut [f64], a: &[C], b: &[C]) {
-    map2(out, a, b, |a, b| complex::compare(operation, a, b));
-}
-
-/// zⁿ.
-pub(crate) fn complex_powers(n: i32, out: &mut [C], a: &[C]) {
-    map(out, a, |a| a.powi(n));
 }
 
 /// Real numbers as complex ones.

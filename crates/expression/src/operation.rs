@@ -190,9 +190,9 @@ impl Binary {
             Binary::Pow => a.powf(b),
             Binary::Mod => modulo(a, b),
             Binary::Atan2 => a.atan2(b),
-            // f64::min would hide a NaN; a < b is false for one, and leaves that of b
-            Binary::Min => spread(a, if a < b { a } else { b }),
-            Binary::Max => spread(a, if a > b { a } else { b }),
+            // f64::min would hide a NaN; so written, they are three vector instructions
+            Binary::Min => defined(if a < b { a } else { b }, a.is_nan() | b.is_nan()),
+            Binary::Max => defined(if a > b { a } else { b }, a.is_nan() | b.is_nan()),
             Binary::Less => truth(a < b, a.is_nan() | b.is_nan()),
             Binary::LessEqual => truth(a <= b, a.is_nan() | b.is_nan()),
             Binary::Equal => truth(a == b, a.is_nan() | b.is_nan()),
@@ -265,18 +265,23 @@ pub(crate) fn select<T: Copy>(c: f64, a: T, b: T, undefined: T) -> T {
 /// `a` where `c` is negative, else `b`; undefined where `c` is.
 #[inline(always)]
 pub(crate) fn by_sign(c: f64, a: f64, b: f64) -> f64 {
-    spread(c, if c < 0.0 { a } else { b })
-}
-
-/// `value`, unless `a` is NaN.
-#[inline(always)]
-fn spread(a: f64, value: f64) -> f64 {
-    if a.is_nan() { a } else { value }
+    if c < 0.0 {
+        a
+    } else if c >= 0.0 {
+        b
+    } else {
+        c
+    }
 }
 
 #[inline(always)]
 fn truth(condition: bool, undefined: bool) -> f64 {
-    if undefined { f64::NAN } else { f64::from(u8::from(condition)) }
+    defined(f64::from(u8::from(condition)), undefined)
+}
+
+#[inline(always)]
+fn defined(value: f64, undefined: bool) -> f64 {
+    if undefined { f64::NAN } else { value }
 }
 
 /// a − b ⌊a/b⌋, with the sign of b.

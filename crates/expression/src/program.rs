@@ -3,7 +3,7 @@
 use crate::fuse::{Fusion, Outer, fusions};
 use crate::graph::{Graph, Kind, Node};
 use crate::lanes::{Kernel, kernel};
-use crate::operation::{Binary, Operation};
+use crate::operation::Operation;
 use num_complex::Complex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -11,8 +11,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Action {
     One(Operation),
-    /// The first two arguments combined, then the third.
-    Two(Binary, Outer),
+    /// The first two arguments combined, or three by their sign, then the last.
+    Two(Operation, Outer),
 }
 
 /// One action: on the registers of its arguments, into its own.
@@ -22,11 +22,11 @@ pub(crate) struct Step {
     /// The loop that does it, if the arguments are real.
     pub kernel: Kernel,
     /// Registers, as many as the action has arguments; the rest is not read.
-    pub arguments: [usize; 3],
+    pub arguments: [usize; 4],
     pub register: usize,
     /// Whether the result is real, and whether each argument is: real and complex numbers have registers apart.
     pub real: bool,
-    pub real_arguments: [bool; 3],
+    pub real_arguments: [bool; 4],
     /// Bit k: the result depends on column k.
     pub depends: u64,
 }
@@ -85,8 +85,8 @@ impl Program {
         let register = self.registers[facts.kind as usize];
         self.registers[facts.kind as usize] += 1;
         let step = |action: Action, nodes: &[Node]| {
-            let mut arguments = [0; 3];
-            let mut real_arguments = [true; 3];
+            let mut arguments = [0; 4];
+            let mut real_arguments = [true; 4];
             for (k, argument) in nodes.iter().enumerate() {
                 arguments[k] = registers[*argument];
                 real_arguments[k] = graph.is_real(*argument);
@@ -102,8 +102,8 @@ impl Program {
                 self.complex_constants.push((register, value.into()));
             }
             (_, _, Some(Fusion { inner, first, second, other })) => {
-                let inner = &graph.facts(inner).arguments;
-                self.steps.push(step(Action::Two(first, second), &[inner[0], inner[1], other]));
+                let arguments = [graph.facts(inner).arguments.as_slice(), &[other]].concat();
+                self.steps.push(step(Action::Two(first, second), &arguments));
             }
             (operation, _, None) => self.steps.push(step(Action::One(operation), &facts.arguments)),
         }

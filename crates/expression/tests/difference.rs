@@ -74,6 +74,9 @@ fn the_smaller_is_chosen_by_the_difference() {
     assert_eq!([choose("min(x,y)", 1e-25), choose("min(x,y)", -1e-25)], [1.0, 2.0]);
     assert_eq!([choose("max(x,y)", 1e-25), choose("max(x,y)", -1e-25)], [2.0, 1.0]);
     assert_eq!([choose("max(y,x)", 1e-25), choose("min(3*x,3*y)", -1e-25)], [2.0, 6.0]);
+    // in one step with what is done to the chosen
+    assert_eq!([choose("5-min(x,y)", 1e-25), choose("max(x,y)/8", -1e-25)], [4.0, 0.125]);
+    assert!(choose("min(x,y)*2", f64::NAN).is_nan());
     assert!(choose("min(x,y)", f64::NAN).is_nan() && choose("max(x,y)", f64::NAN).is_nan());
 }
 

@@ -5,6 +5,7 @@ use crate::problem::args::FORMULAS;
 use crate::radiosity::args::{EXAMPLES as RADIOSITY_EXAMPLES, Radiosity};
 use crate::solve::args::{EXAMPLES as SOLVE_EXAMPLES, Solve};
 use crate::spectrum::args::{EXAMPLES as SPECTRUM_EXAMPLES, Spectrum};
+use crate::viewfactors::args::{EXAMPLES as VIEW_FACTORS_EXAMPLES, ViewFactors};
 use clap::{Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -32,6 +33,9 @@ pub enum Command {
     /// Solve the diffuse light of a scene, B = E + ρ ∫ K B, and draw it
     #[command(after_help = RADIOSITY_EXAMPLES, allow_negative_numbers = true)]
     Radiosity(Box<Radiosity>),
+    /// Compute the view factors between the faces of a mesh, each with its error
+    #[command(after_help = VIEW_FACTORS_EXAMPLES, allow_negative_numbers = true)]
+    Viewfactors(Box<ViewFactors>),
     /// Print a quadrature rule, its order and its error constant; or integrate a formula
     #[command(after_help = crate::quadrature::args::EXAMPLES)]
     Quadrature(Box<crate::quadrature::args::Quadrature>),

@@ -1,10 +1,10 @@
 //! The numbers of a run for programs: `--json FILE`, or `--json -` for the standard output.
 
 use crate::output::Output;
-use crate::terminal::{Stream, say};
+use crate::terminal::{Stream, pour, say};
 use anyhow::Result;
 use serde::Serialize;
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Where the JSON goes.
@@ -42,6 +42,26 @@ pub fn tell(json: Option<Json>, report: &impl Serialize, table: &str) -> Result<
         }
         Some(Json::Terminal) => {
             say(Stream::Out, &text()?)?;
+            Stream::Err
+        }
+    };
+    Ok(say(stream, table)?)
+}
+
+/// As [`tell`], for a report with matrices: on one line, and without a copy of it in memory.
+pub fn stream(json: Option<Json>, report: &impl Serialize, table: &str) -> Result<()> {
+    let write = |out: &mut dyn Write| -> io::Result<()> {
+        serde_json::to_writer(&mut *out, report)?;
+        out.write_all(b"\n")
+    };
+    let stream = match json {
+        None => Stream::Out,
+        Some(Json::File(output)) => {
+            output.write(|out| write(out))?;
+            Stream::Out
+        }
+        Some(Json::Terminal) => {
+            pour(write)?;
             Stream::Err
         }
     };

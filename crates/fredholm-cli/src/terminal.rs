@@ -1,7 +1,8 @@
 //! The one place that writes to the terminal; a reader who has gone away is no error.
 
 use indicatif::{ProgressBar, ProgressStyle};
-use std::io::{self, ErrorKind, Write};
+use std::fmt::Display;
+use std::io::{self, BufWriter, ErrorKind, Write};
 
 /// Where people and programs read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,9 +25,23 @@ pub fn say(stream: Stream, text: &str) -> io::Result<()> {
     }
 }
 
+/// Writes to the standard output what is too long to be a text first. A broken pipe ends it, as in [`say`].
+pub fn pour(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    let mut out = BufWriter::new(io::stdout().lock());
+    match write(&mut out).and_then(|()| out.flush()) {
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        other => other,
+    }
+}
+
 /// Tells what went wrong, in one message.
 pub fn complain(error: &anyhow::Error) -> io::Result<()> {
     say(Stream::Err, &format!("error: {error:#}\n"))
+}
+
+/// Tells what does not stop the work.
+pub fn warn(message: &impl Display) -> io::Result<()> {
+    say(Stream::Err, &format!("warning: {message}\n"))
 }
 
 fn write_all(mut out: impl Write, text: &str) -> io::Result<()> {

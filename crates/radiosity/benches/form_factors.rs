@@ -8,7 +8,7 @@ use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use fredholm::discretize::Coupling;
 use fredholm::value::Rgb;
-use radiosity::form_factor::exchange::Exchange;
+use radiosity::form_factor::exchange::Unoccluded;
 use radiosity::form_factor::lambert::point_to_polygon;
 use radiosity::form_factor::{FormFactors, point_to_point};
 use radiosity::patches::{Patches, size_for_count};
@@ -86,7 +86,7 @@ fn exchange(bencher: Bencher<'_, '_>, name: &str) {
         _ => 3.8..99.0,
     };
     let polygons = rooms::cube(1.0, 16);
-    let exchange = Exchange::new(&polygons, 0.1 * ACCURACY);
+    let exchange = Unoccluded::new(&polygons, 0.1 * ACCURACY);
     let mut random = Random(5);
     let mut pairs = Vec::new();
     while pairs.len() < PAIRS {
@@ -98,7 +98,7 @@ fn exchange(bencher: Bencher<'_, '_>, name: &str) {
         }
     }
     bencher.counter(ItemsCount::new(PAIRS)).bench_local(|| {
-        pairs.iter().map(|&(i, j)| exchange.between(black_box(&polygons), i, j)).sum::<f64>()
+        pairs.iter().map(|&(i, j)| exchange.between(black_box(&polygons), i, j).value).sum::<f64>()
     });
 }
 

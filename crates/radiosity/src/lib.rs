@@ -33,11 +33,14 @@
 //! | 5 | [`form_factor`] | F_ij: Nyström, collocation, Galerkin |
 //! | | [`elements`] | the same on P_k and Q_k: coefficients for each patch |
 //! | 6 | [`solve`](mod@solve) | u = f + ρ ⊙ (F u), by the crate `fredholm`; [`closure`] checks it |
+//! | | [`view_factors`] | the F_ij of faces for other programs, each with its error |
 //! | 7 | [`reconstruct`] | from patches to the light at any point |
 //! | 8 | [`render`], [`export`] | pictures and files |
 //!
-//! All lengths are metres, all radiosities W/m². Surfaces are diffuse; a polygon emits and reflects from its front and blocks
-//! from both sides.
+//! The same equation with temperatures for light is heat by radiation: [`thermal`].
+//!
+//! All lengths are metres, all radiosities W/m², or lm/m² where a scene is photometric ([`scene::Units`]). Surfaces are
+//! diffuse; a polygon emits and reflects from its front and blocks from both sides.
 
 pub mod closure;
 pub mod elements;
@@ -50,4 +53,6 @@ pub mod reconstruct;
 pub mod render;
 pub mod scene;
 pub mod solve;
+pub mod thermal;
+pub mod view_factors;
 pub mod visibility;

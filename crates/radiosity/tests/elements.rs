@@ -558,3 +558,43 @@ fn a_white_furnace_is_one_in_every_space() {
         }
     }
 }
+
+/// A room with a block in it, where much is partly hidden: rows add up to 1, blocks have their reciprocity, entries asked for
+/// alone are those of the row, and means over patches are those of P0 but for the error of both.
+#[test]
+fn what_is_partly_hidden_has_rows_of_one_and_the_light_of_constants() {
+    let mut groups: Vec<Vec<Polygon>> = walls(DVec3::ZERO, p(4.0, 3.3, 2.3), false).map(|w| vec![w]).to_vec();
+    groups.push(walls(p(1.0, 0.7, 0.0), p(2.0, 1.9, 1.1), true)[1..].to_vec());
+    let mut scene = scene(groups, 0.6);
+    scene.surfaces[1].emission = 10.0;
+    let (patches, visibility) = (Patches::new(&scene, 0.8).unwrap(), visibility(&scene));
+    let options = solve::Options { accuracy: 3e-3, ..solve::Options::default() };
+    let constant = solve::solve(&patches, &visibility, &options, &mut solve::Unobserved).unwrap();
+    let space = Space::new(&patches.polygons, Degree::Linear);
+    for method in [solve::Method::Collocation, solve::Method::Galerkin] {
+        let options = solve::Options { method, ..options };
+        let linear =
+            solve::solve_elements(&space, &patches, &visibility, &options, &mut solve::Unobserved).unwrap();
+        let Closure::Closed { defect, .. } = linear.closure else { panic!("a closed room") };
+        assert!(defect < 6.0 * options.accuracy, "{method:?}: {defect:e}");
+        let (mut error, mut norm) = (0.0, 0.0);
+        for ((b, mean), area) in
+            constant.radiosity.iter().zip(space.means(&linear.radiosity)).zip(&patches.areas)
+        {
+            error += (b - mean).powi(2) * area;
+            norm += b * b * area;
+        }
+        assert!((error / norm).sqrt() < 0.02, "{method:?}: {:e}", (error / norm).sqrt());
+    }
+    let coupling = Elements::galerkin(&space, &patches, &visibility, 1e-2);
+    let (n, weights) = (space.dim(), space.weights());
+    let mut row = vec![0.0; n];
+    for i in (0..n).step_by(37) {
+        coupling.row(i, 0, &mut row);
+        for j in (0..n).step_by(11) {
+            assert!((row[j] - coupling.entry(i, j)).abs() < 1e-15, "{i} {j}");
+            let back = coupling.entry(j, i) * weights[j] / weights[i];
+            assert!((row[j] - back).abs() < 1e-14, "{i} {j}: {} {back}", row[j]);
+        }
+    }
+}

@@ -78,7 +78,7 @@ fn the_gallerys_faces_meet_in_whole_edges() {
 
 #[test]
 fn the_gallerys_file_overrides_its_materials() {
-    let Loaded { scene, solve } = repository("gallery/gallery.toml");
+    let Loaded { scene, solve, .. } = repository("gallery/gallery.toml");
     let surface =
         |name: &str| scene.surfaces.iter().find(|s| s.name == name).unwrap_or_else(|| panic!("no {name}"));
     assert_eq!(surface("bench").reflectance, Spectrum([0.46, 0.30, 0.17]));
@@ -101,7 +101,7 @@ fn lengths_are_in_the_unit_of_the_file() {
             "unit = {unit}\nmeshes = ['a.obj']\nmaterials.paint.emission = 1\n[camera]\nposition = [0, 0, 10]\n\
              target = [0, 10, 10]\nvertical_angle = 90\n[solve]\npatch_size = 2\nmethod = 'galerkin'\ntolerance = 1e-6"
         );
-        let Loaded { scene, solve } = written("unit", &[("a.toml", &text), ("a.obj", MESH)]).unwrap();
+        let Loaded { scene, solve, .. } = written("unit", &[("a.toml", &text), ("a.obj", MESH)]).unwrap();
         assert!((scene.surfaces[0].area() / (100.0 * metres * metres) - 1.0).abs() < 1e-12);
         let camera = scene.camera.unwrap();
         assert!(camera.target.distance(DVec3::new(0.0, 10.0, 10.0) * metres) < 1e-12);

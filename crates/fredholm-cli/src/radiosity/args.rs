@@ -24,16 +24,35 @@ must be there:
   patch_size = 250
 
 \
+With --thermal materials have an emissivity and a temperature in K or a net heat_flux in W/m², and
+the file may have bands (limits in µm), surroundings (K), or in place of meshes an enclosure whose
+view factors are known. Here a shield floats between two plates:
+
+  [enclosure]
+  shape = \"plates\"                   # in pairs; or \"nested\", or view_factors = [[…], …] and areas
+  surface = [
+    { name = \"hot\", emissivity = 0.8, temperature = 500 },
+    { name = \"shield, hot side\", emissivity = 0.05, linked = \"shield\" },
+    { name = \"shield, cold side\", emissivity = 0.05, linked = \"shield\" },
+    { name = \"cold\", emissivity = 0.8, temperature = 300 },
+  ]
+
+With units = \"photometric\" materials have a luminance in cd/m², a luminous_exitance in lm/m² or a
+luminous_flux in lm, and all is grey.
+
+\
 Examples:
   fredholm radiosity                                  the Cornell box, as cornell-box.png
   fredholm radiosity room.toml --patch-size 0.1       a scene of yours, in patches of 10 cm
   fredholm radiosity --space p1 --patch-count 1000    linear on each patch: fewer of them do
   fredholm radiosity --false-colour -o map.png        radiosity in W/m² as a map
+  fredholm radiosity oven.toml --thermal              temperatures and heat fluxes, with their errors
+  fredholm radiosity office.toml --map illuminance    lux as a map, of a photometric scene
   fredholm radiosity --json - | jq .closure_defect    the numbers alone
   fredholm radiosity --solver southwell --ambient --frames shots    the light, shot by shot
 
 Exit codes: 0 solved; 1 an error; 2 a mistake on the command line; 3 all is written, but the
-residual did not reach the tolerance within the iterations.";
+residual did not reach the tolerance within the iterations; 4 no answer, or more than one (--thermal).";
 
 /// Options of `fredholm radiosity`. What is `None` is left to the scene file, and then to a default.
 #[derive(Debug, Args)]
@@ -45,6 +64,19 @@ pub struct Radiosity {
     /// The channels of light; `spectral` is for the Cornell box
     #[arg(long, value_enum, default_value_t = Bands::Rgb, help_heading = "Scene")]
     pub bands: Bands,
+
+    /// Heat in place of light: temperatures or heat fluxes in, heat fluxes and temperatures out
+    #[arg(
+        long,
+        requires = "scene",
+        conflicts_with_all = ["bands", "photometric", "method", "solver", "ambient", "frames", "gather"],
+        help_heading = "Scene"
+    )]
+    pub thermal: bool,
+
+    /// Lumens in place of watts: lx and cd/m² out [default: as the scene's `units` say]
+    #[arg(long, requires = "scene", conflicts_with = "bands", help_heading = "Scene")]
+    pub photometric: bool,
 
     /// The longest that an edge of a patch may be, in metres
     #[arg(long, value_name = "METRES", value_parser = positive, help_heading = "Scene")]
@@ -96,6 +128,10 @@ pub struct Radiosity {
     #[arg(long, alias = "false-color", help_heading = "Picture")]
     pub false_colour: bool,
 
+    /// What to show as a colour, patch by patch, in place of a picture [default with --thermal: temperature]
+    #[arg(long, value_enum, value_name = "QUANTITY", help_heading = "Picture")]
+    pub map: Option<Quantity>,
+
     /// Pixels across and down
     #[arg(long, value_name = "WxH", value_parser = size, default_value = "640x640", help_heading = "Picture")]
     pub size: Size,
@@ -145,6 +181,19 @@ pub struct Radiosity {
     /// What is known of each patch, as a table or as NumPy arrays
     #[arg(long, value_name = "FILE.csv|.npz", value_parser = patches, help_heading = "Output")]
     pub patches: Option<PathBuf>,
+}
+
+/// A number of every patch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Quantity {
+    /// With --thermal: the temperature, in K
+    Temperature,
+    /// With --thermal: the net heat flux, in W/m²
+    HeatFlux,
+    /// With --photometric: what reaches a patch, in lx
+    Illuminance,
+    /// With --photometric: how bright a patch is, in cd/m²
+    Luminance,
 }
 
 /// The channels of light.

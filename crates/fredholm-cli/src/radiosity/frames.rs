@@ -11,6 +11,7 @@ use fredholm::neumann::estimated_rest;
 use fredholm::value::{Rgb, Value};
 use radiosity::patches::Patches;
 use radiosity::render::{Colour, Exposure, Picture, Preview};
+use radiosity::scene::Units;
 use std::f64::consts::PI;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -21,6 +22,7 @@ pub struct Frames {
     every: usize,
     preview: Preview,
     exposure: Option<Exposure>,
+    units: Units,
     /// The files written.
     pub files: Vec<PathBuf>,
     /// The seconds spent before the solver began.
@@ -37,7 +39,7 @@ impl Frames {
     pub fn new<V: Colour>(
         folder: Folder,
         args: &Radiosity,
-        settings: &Settings,
+        (settings, units): (&Settings, Units),
         domain: &Domain<'_, V>,
     ) -> Self {
         let start = Instant::now();
@@ -47,6 +49,7 @@ impl Frames {
             folder,
             every: args.every.unwrap_or(usual),
             preview: Preview::new(&view, &domain.polygons, &domain.patches, &domain.visibility),
+            units,
             exposure: (!args.false_colour).then(|| exposure(&domain.patches)),
             files: Vec::new(),
             preparing: start.elapsed().as_secs_f64(),
@@ -84,7 +87,7 @@ impl Frames {
         let start = Instant::now();
         let picture = self.preview.draw(radiosity);
         let exposed = |exposure| picture.develop(exposure);
-        let image = self.exposure.map_or_else(|| map(&picture, patches, radiosity), exposed);
+        let image = self.exposure.map_or_else(|| map(&picture, patches, radiosity, self.units), exposed);
         self.files.push(write_png(self.folder.frame(iteration)?, &image)?);
         self.recording += start.elapsed().as_secs_f64();
         Ok(())

@@ -3,14 +3,15 @@
 pub mod args;
 mod domain;
 mod frames;
-mod memory;
+pub mod memory;
 mod outputs;
 mod picture;
 mod progress;
 mod report;
 mod settings;
-mod table;
-mod timing;
+pub mod table;
+mod thermal;
+pub mod timing;
 
 use self::args::{Bands, Radiosity};
 use self::domain::Domain;
@@ -25,13 +26,14 @@ use self::timing::{Seconds, timed};
 use crate::ending::Ending;
 use crate::json::{self, Json};
 use crate::output::{Output, clear_on_interrupt};
+use crate::terminal::warn;
 use anyhow::{Context, Result, bail};
 use fredholm::relax::Outcome;
 use fredholm::value::Value;
 use radiosity::elements::Space;
 use radiosity::export::Field;
 use radiosity::render::Colour;
-use radiosity::scene::{Scene, SolveOptions, cornell_box, cornell_box_spectral, load};
+use radiosity::scene::{Scene, SolveOptions, Units, cornell_box, cornell_box_spectral, load_in};
 use radiosity::solve::{Solution, solve, solve_elements};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -45,12 +47,18 @@ pub fn command(args: &Radiosity) -> Result<Ending> {
     }
     let start = Instant::now();
     let unsaid = SolveOptions::default();
+    let watts = Units::Radiometric;
     match (&args.scene, args.bands) {
-        (None, Bands::Rgb) => walk(&cornell_box(), &unsaid, args, start),
-        (None, Bands::Spectral) => walk(&cornell_box_spectral(), &unsaid, args, start),
+        (Some(file), _) if args.thermal => thermal::command(file, args, start),
+        (None, Bands::Rgb) => walk(&cornell_box(), watts, &unsaid, args, start),
+        (None, Bands::Spectral) => walk(&cornell_box_spectral(), watts, &unsaid, args, start),
         (Some(file), Bands::Rgb) => {
-            let loaded = load(file)?;
-            walk(&loaded.scene, &loaded.solve, args, start)
+            let loaded = load_in(file, args.photometric.then_some(Units::Photometric))?;
+            loaded.warnings.iter().try_for_each(warn)?;
+            match loaded.units {
+                Units::Photometric => walk(&loaded.grey(), loaded.units, &loaded.solve, args, start),
+                Units::Radiometric => walk(&loaded.scene, loaded.units, &loaded.solve, args, start),
+            }
         }
         (Some(file), Bands::Spectral) => bail!(
             "{}: scene files give red, green and blue; leave --bands spectral to the built-in Cornell box",
@@ -62,19 +70,21 @@ pub fn command(args: &Radiosity) -> Result<Ending> {
 /// From the loaded scene to the last file.
 fn walk<V: Colour>(
     scene: &Scene<V>,
+    units: Units,
     wishes: &SolveOptions,
     args: &Radiosity,
     start: Instant,
 ) -> Result<Ending> {
+    picture::check_map(args.map, units)?;
     let mut seconds = Seconds { load: start.elapsed().as_secs_f64(), ..Seconds::default() };
     let settings = Settings::new(args, wishes, args.scene.as_deref().unwrap_or(Path::new("")))?;
     let Outputs { picture, patches, json, frames } = Outputs::prepare(args, &scene.name)?;
 
     let domain = Domain::new(scene, settings.size(scene), &mut seconds)?;
-    let frames = frames.map(|folder| Frames::new(folder, args, &settings, &domain));
+    let frames = frames.map(|folder| Frames::new(folder, args, (&settings, units), &domain));
     let Domain { patches: mesh, visibility, .. } = &domain;
     let space = settings.space.degree().map(|degree| Space::new(&mesh.polygons, degree));
-    let mut watcher = Watcher::new(&settings, mesh, space.as_ref(), frames);
+    let mut watcher = Watcher::new((&settings, units), mesh, space.as_ref(), frames);
     let options = settings.options(space.as_ref().map_or(mesh.len(), Space::dim));
     let solution = match &space {
         None => solve(mesh, visibility, &options, &mut watcher)?,
@@ -83,15 +93,15 @@ fn walk<V: Colour>(
     let mut files = watcher.finish(&solution, &mut seconds)?;
 
     if let Some(output) = picture {
-        let image = timed(&mut seconds.picture, || draw(args, &domain, &solution.radiosity));
+        let image = timed(&mut seconds.picture, || draw(args, &domain, units, &solution));
         files.push(timed(&mut seconds.write, || write_png(output, &image))?);
     }
     if let Some(output) = patches {
-        files.push(timed(&mut seconds.write, || write_patches(output, &domain, &solution))?);
+        files.push(timed(&mut seconds.write, || write_patches(output, &domain, units, &solution))?);
     }
     files.extend(json.as_ref().and_then(Json::file));
     seconds.total = start.elapsed().as_secs_f64();
-    let report = Report::new(&domain, &settings, space.as_ref(), &solution, seconds, files);
+    let report = Report::new(&domain, (&settings, units), space.as_ref(), &solution, seconds, files);
     json::tell(json, &report, &table(&report))?;
     Ok(if solution.report.outcome == Outcome::Converged { Ending::Converged } else { Ending::NotConverged })
 }
@@ -108,9 +118,10 @@ fn means<V: Value>(space: &Space<'_>, solution: Solution<V>) -> Solution<V> {
 fn write_patches<V: Value>(
     output: Output,
     domain: &Domain<'_, V>,
+    units: Units,
     solution: &Solution<V>,
 ) -> Result<PathBuf> {
     let Domain { scene, patches, .. } = domain;
-    let field = Field { scene, patches, radiosity: &solution.radiosity, irradiance: &solution.irradiance };
+    let field = Field::light(scene, patches, (&solution.radiosity, &solution.irradiance), units);
     write_field(output, &field)
 }

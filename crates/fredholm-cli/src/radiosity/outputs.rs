@@ -28,10 +28,15 @@ impl Outputs {
         let nothing_asked =
             args.output.is_none() && args.json.is_none() && args.patches.is_none() && args.frames.is_none();
         let picture = args.output.clone().or_else(|| nothing_asked.then(|| PathBuf::from(file_name(scene))));
-        refuse_twins(&[picture.as_deref(), args.json.as_deref(), args.patches.as_deref()])?;
+        Self::of(args, picture.as_deref())
+    }
+
+    /// The same without a picture by the scene's name, where the numbers are what is asked for.
+    pub fn of(args: &Radiosity, picture: Option<&Path>) -> Result<Self> {
+        refuse_twins(&[picture, args.json.as_deref(), args.patches.as_deref()])?;
         let prepare = |path: Option<&Path>| path.map(Output::prepare).transpose();
         Ok(Self {
-            picture: prepare(picture.as_deref())?,
+            picture: prepare(picture)?,
             patches: prepare(args.patches.as_deref())?,
             json: args.json.as_deref().map(Json::prepare).transpose()?,
             frames: args.frames.as_deref().map(Folder::prepare).transpose()?,

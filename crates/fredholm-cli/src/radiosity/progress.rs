@@ -12,6 +12,7 @@ use indicatif::ProgressBar;
 use radiosity::elements::Space;
 use radiosity::patches::Patches;
 use radiosity::render::Colour;
+use radiosity::scene::Units;
 use radiosity::solve::{Observer, Solution};
 use std::path::PathBuf;
 
@@ -25,6 +26,7 @@ pub struct Watcher<'a, V> {
     assembly: ProgressBar,
     relaxation: ProgressBar,
     first: Option<f64>,
+    unit: &'static str,
     frames: Option<Frames>,
     failed: Option<anyhow::Error>,
 }
@@ -32,7 +34,7 @@ pub struct Watcher<'a, V> {
 impl<'a, V: Colour> Watcher<'a, V> {
     /// A watcher over these patches, or the coefficients of a space on them.
     pub fn new(
-        settings: &Settings,
+        (settings, units): (&Settings, Units),
         patches: &'a Patches<V>,
         space: Option<&'a Space<'a>>,
         frames: Option<Frames>,
@@ -47,6 +49,7 @@ impl<'a, V: Colour> Watcher<'a, V> {
             assembly: bar("form factors", entries),
             relaxation,
             first: None,
+            unit: units.exitance(),
             frames,
             failed: None,
         }
@@ -80,7 +83,7 @@ impl<V: Colour> Observer<V> for Watcher<'_, V> {
             let first = *self.first.get_or_insert(norm);
             let done = if norm > target { (first / norm).ln() / (first / target).ln() } else { 1.0 };
             self.relaxation.set_position((STEPS * done.clamp(0.0, 1.0)) as u64);
-            self.relaxation.set_message(format!("iteration {iteration}, residual {norm:.1e} W/m²"));
+            self.relaxation.set_message(format!("iteration {iteration}, residual {norm:.1e} {}", self.unit));
         }
         let Some(frames) = &mut self.frames else { return true };
         let shown = || match self.space {

@@ -10,8 +10,10 @@ use fredholm::value::Value;
 use radiosity::closure::Closure;
 use radiosity::elements::Space;
 use radiosity::patches::Patches;
+use radiosity::scene::Units;
 use radiosity::solve::Solution;
 use serde::Serialize;
+use std::f64::consts::PI;
 use std::path::PathBuf;
 
 /// The numbers of a run, in the order of the JSON.
@@ -64,7 +66,7 @@ pub struct Report {
     /// The most memory used at once.
     pub peak_memory_bytes: Option<u64>,
     /// What the numbers are in.
-    pub units: Units,
+    pub units: Named,
     /// Means over each surface.
     pub surfaces: Vec<Surface>,
     /// The files written.
@@ -73,41 +75,61 @@ pub struct Report {
 
 /// The units of a report.
 #[derive(Clone, Copy, Debug, Serialize)]
-pub struct Units {
+pub struct Named {
     length: &'static str,
     area: &'static str,
-    radiosity: &'static str,
+    /// Of B.
+    pub radiosity: &'static str,
     irradiance: &'static str,
     emission: &'static str,
     residual: &'static str,
     error_bound: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    luminance: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    illuminance: Option<&'static str>,
 }
 
-const UNITS: Units = Units {
-    length: "m",
-    area: "m²",
-    radiosity: "W/m²",
-    irradiance: "W/m²",
-    emission: "W/m²",
-    residual: "W/m²",
-    error_bound: "W/m²",
-};
+impl Named {
+    fn new(units: Units) -> Self {
+        let (exitance, irradiance) = (units.exitance(), units.irradiance());
+        Self {
+            length: "m",
+            area: "m²",
+            radiosity: exitance,
+            irradiance,
+            emission: exitance,
+            residual: exitance,
+            error_bound: exitance,
+            luminance: (units == Units::Photometric).then(|| units.radiance()),
+            illuminance: (units == Units::Photometric).then_some(irradiance),
+        }
+    }
+}
 
 /// A surface of the scene: means over its whole area, by channel.
 #[derive(Clone, Debug, Serialize)]
 pub struct Surface {
-    name: String,
-    area: f64,
+    /// Its name.
+    pub name: String,
+    /// In m².
+    pub area: f64,
     mean_radiosity: Vec<f64>,
     mean_irradiance: Vec<f64>,
     emission: Vec<f64>,
+    /// H, as a number in lx.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mean_illuminance: Option<f64>,
+    /// B/π, as a number in cd/m².
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mean_luminance: Option<f64>,
 }
 
 impl Report {
     /// The numbers of a solved scene.
     pub fn new<V: Value>(
         domain: &Domain<'_, V>,
-        settings: &Settings,
+        (settings, units): (&Settings, Units),
         space: Option<&Space<'_>>,
         solution: &Solution<V>,
         seconds: Seconds,
@@ -149,14 +171,15 @@ impl Report {
             rays: solution.rays,
             seconds,
             peak_memory_bytes: memory::peak(),
-            units: UNITS,
-            surfaces: surfaces(domain, solution),
+            units: Named::new(units),
+            surfaces: surfaces(domain, units, solution),
             files,
         }
     }
 }
 
-fn surfaces<V: Value>(domain: &Domain<'_, V>, solution: &Solution<V>) -> Vec<Surface> {
+fn surfaces<V: Value>(domain: &Domain<'_, V>, units: Units, solution: &Solution<V>) -> Vec<Surface> {
+    let is_seen = units == Units::Photometric;
     let radiosity = totals(domain, &solution.radiosity);
     let irradiance = totals(domain, &solution.irradiance);
     let means = radiosity.into_iter().zip(irradiance).zip(&domain.scene.surfaces);
@@ -170,6 +193,8 @@ fn surfaces<V: Value>(domain: &Domain<'_, V>, solution: &Solution<V>) -> Vec<Sur
                 mean_radiosity: mean(radiosity),
                 mean_irradiance: mean(irradiance),
                 emission: surface.emission.channels().to_vec(),
+                mean_illuminance: is_seen.then(|| irradiance.channels()[0] / area),
+                mean_luminance: is_seen.then(|| radiosity.channels()[0] / area / PI),
             }
         })
         .collect()

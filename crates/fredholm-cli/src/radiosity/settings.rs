@@ -67,6 +67,19 @@ impl Settings {
         self.patch_size.unwrap_or_else(|| size_for_count(scene, self.patch_count))
     }
 
+    /// Whether a matrix of so many patches fits.
+    pub fn check_memory(&self, patches: usize) -> Result<()> {
+        let (needed, available) = ((patches as u64).pow(2) * 4, memory::limit());
+        match needed > available {
+            true => bail!(
+                "{patches} patches make a matrix of {} MB, and {} MB are free: take larger patches",
+                needed >> 20,
+                available >> 20
+            ),
+            false => Ok(()),
+        }
+    }
+
     /// What the solver is told, for so many unknowns.
     pub fn options(&self, unknowns: usize) -> Options {
         let sweep = if self.solver == Solver::Southwell { unknowns } else { 1 };

@@ -1,12 +1,36 @@
 //! The numbers of a run as people read them.
 
-use super::report::Report;
+use super::report::{Report, Surface};
 use super::timing::Seconds;
-use crate::text;
+use crate::text::{self, Digits};
+use std::f64::consts::PI;
 
 /// The table, a line per matter.
 pub fn table(report: &Report) -> String {
-    format!("{}: {} with {}\n\n{}", report.scene, report.method, report.solver, text::lines(&lines(report)))
+    let matters = text::lines(&lines(report));
+    format!("{}: {} with {}\n\n{matters}{}", report.scene, report.method, report.solver, surfaces(report))
+}
+
+/// What a lighting designer asks of each surface; nothing where the units are watts.
+fn surfaces(report: &Report) -> String {
+    let header = ["surface", "area, m²", "illuminance, lx", "luminance, cd/m²"].map(str::to_owned);
+    let numbers = |surface: &Surface| Some((surface.mean_illuminance?, surface.mean_luminance?));
+    let known: Vec<_> = report.surfaces.iter().filter_map(|s| numbers(s).map(|(h, l)| (s, h, l))).collect();
+    if known.is_empty() {
+        return String::new();
+    }
+    let bound = report.error_bound.unwrap_or(0.0);
+    let digits = |of: fn(&(&Surface, f64, f64)) -> f64, error: f64| {
+        let largest = known.iter().map(of).fold(0.0, f64::max);
+        // Patches are of a size, whatever the solver knows: five digits are more than anyone has use for.
+        Digits::new(largest, error.max(1e-4 * largest))
+    };
+    let (lux, candela) = (digits(|known| known.1, bound), digits(|known| known.2, bound / PI));
+    let row = |(surface, h, l): &(&Surface, f64, f64)| {
+        vec![surface.name.clone(), short(surface.area), lux.write(*h), candela.write(*l)]
+    };
+    let rows: Vec<Vec<String>> = std::iter::once(header.to_vec()).chain(known.iter().map(row)).collect();
+    format!("\n{}", text::columns(&rows))
 }
 
 fn lines(report: &Report) -> Vec<(&'static str, String)> {
@@ -55,23 +79,24 @@ fn iterations(report: &Report) -> String {
 }
 
 fn residual(report: &Report) -> String {
-    let Report { residual, target, .. } = report;
+    let (Report { residual, target, .. }, unit) = (report, report.units.radiosity);
     let mend = match report.outcome {
-        "converged" => return format!("{residual:.1e} W/m², of {target:.1e} allowed"),
+        "converged" => return format!("{residual:.1e} {unit}, of {target:.1e} allowed"),
         "stalled at rounding" => "no solver gets below rounding, ask for a larger --tolerance",
         _ if report.solver == "direct" => "this is its rounding, ask for a larger --tolerance",
         _ => "allow more --iterations",
     };
-    format!("{residual:.1e} W/m²: NOT CONVERGED to {target:.1e}; {mend}")
+    format!("{residual:.1e} {unit}: NOT CONVERGED to {target:.1e}; {mend}")
 }
 
 fn error_bound(report: &Report) -> String {
+    let unit = report.units.radiosity;
     match report.error_bound {
         Some(bound) if report.norm_rows < report.unknowns => {
             let Report { norm, norm_rows, .. } = report;
-            format!("{bound:.1e} W/m² from the solver, if ‖ρF‖ ≤ {norm:.3} as in {norm_rows} rows")
+            format!("{bound:.1e} {unit} from the solver, if ‖ρF‖ ≤ {norm:.3} as in {norm_rows} rows")
         }
-        Some(bound) => format!("{bound:.1e} W/m² from the solver, since ‖ρF‖ ≤ {:.3}", report.norm),
+        Some(bound) => format!("{bound:.1e} {unit} from the solver, since ‖ρF‖ ≤ {:.3}", report.norm),
         None => format!("none, since ‖ρF‖ = {:.3} is not less than 1", report.norm),
     }
 }
@@ -128,7 +153,7 @@ fn written(report: &Report) -> String {
 }
 
 /// Digits in groups of three.
-fn grouped(number: u64) -> String {
+pub fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::new();
     for (k, digit) in digits.chars().enumerate() {

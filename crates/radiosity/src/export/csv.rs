@@ -11,7 +11,7 @@ use std::io::{self, Write};
 /// channel has no suffix. The surface is given by its name.
 pub fn write_csv<V: Value>(field: &Field<'_, V>, out: &mut impl Write) -> io::Result<()> {
     write!(out, "x,y,z,nx,ny,nz,area")?;
-    for (name, _) in field.by_channel() {
+    for (name, _) in &field.columns {
         for channel in 0..V::CHANNELS {
             write!(out, ",{name}{}", suffix(channel, V::CHANNELS))?;
         }
@@ -32,7 +32,7 @@ fn write_row<V: Value>(
     // `Display` gives the shortest digits that are read back as the same number.
     write!(out, "{},{},{},{},{},{}", centre.x, centre.y, centre.z, normal.x, normal.y, normal.z)?;
     write!(out, ",{}", field.patches.areas[i])?;
-    for (_, values) in field.by_channel() {
+    for (_, values) in &field.columns {
         for channel in values[i].channels() {
             write!(out, ",{channel}")?;
         }
@@ -49,7 +49,7 @@ fn suffix(channel: usize, channels: usize) -> String {
 }
 
 /// A name as a field of CSV: in quotes where it would break the row.
-fn quoted(name: &str) -> String {
+pub(super) fn quoted(name: &str) -> String {
     if name.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", name.replace('"', "\"\""))
     } else {

@@ -15,41 +15,50 @@ use std::io::{self, BufWriter, Seek, Write};
 /// |---|---|---|
 /// | `centre`, `normal` | (n, 3) | f64 |
 /// | `area` | (n,) | f64 |
-/// | `emission`, `reflectance`, `radiosity`, `irradiance` | (n, channels) | f64 |
+/// | `emission`, `reflectance`, `radiosity`, `irradiance`, or as [the module](super) says | (n, channels) | f64 |
 /// | `surface` | (n,) | u32: an index into `surface_names` |
 /// | `surface_names` | (surfaces,) | str |
 pub fn write_npz<V: Value>(field: &Field<'_, V>, out: impl Write + Seek) -> io::Result<()> {
     let patches: &Patches<V> = field.patches;
-    let mut archive = Archive(NpzWriter::new(out));
+    let mut archive = Archive::new(out);
     let vectors = |of: fn(&crate::polygon::Polygon) -> glam::DVec3| {
         patches.polygons.iter().flat_map(move |polygon| of(polygon).to_array())
     };
-    archive.matrix("centre", 3, patches.len(), vectors(|polygon| polygon.centroid()))?;
-    archive.matrix("normal", 3, patches.len(), vectors(|polygon| polygon.normal()))?;
+    archive.matrix("centre", patches.len(), 3, vectors(|polygon| polygon.centroid()))?;
+    archive.matrix("normal", patches.len(), 3, vectors(|polygon| polygon.normal()))?;
     archive.column("area", patches.areas.iter().copied())?;
-    for (name, values) in field.by_channel() {
+    for (name, values) in &field.columns {
         let channels = values.iter().flat_map(|value| value.channels().iter().copied());
-        archive.matrix(name, V::CHANNELS, values.len(), channels)?;
+        archive.matrix(name, values.len(), V::CHANNELS, channels)?;
     }
     archive.column("surface", patches.surface.iter().copied())?;
     archive.names("surface_names", field.scene.surfaces.iter().map(|surface| surface.name.as_str()))?;
-    archive.0.zip_writer().finish()?.flush()
+    archive.finish()
 }
 
-struct Archive<W: Write + Seek>(NpzWriter<W>);
+/// An archive to which arrays are added one by one.
+pub(super) struct Archive<W: Write + Seek>(NpzWriter<W>);
 
 impl<W: Write + Seek> Archive<W> {
-    fn matrix(
-        &mut self,
-        name: &str,
-        columns: usize,
-        rows: usize,
-        entries: impl Iterator<Item = f64>,
-    ) -> io::Result<()> {
-        self.array(name, &f64::default_dtype(), &[rows as u64, columns as u64], entries)
+    pub(super) fn new(out: W) -> Self {
+        Self(NpzWriter::new(out))
     }
 
-    fn column<T: AutoSerialize>(
+    pub(super) fn finish(mut self) -> io::Result<()> {
+        self.0.zip_writer().finish()?.flush()
+    }
+
+    pub(super) fn matrix<T: AutoSerialize>(
+        &mut self,
+        name: &str,
+        rows: usize,
+        columns: usize,
+        entries: impl Iterator<Item = T>,
+    ) -> io::Result<()> {
+        self.array(name, &T::default_dtype(), &[rows as u64, columns as u64], entries)
+    }
+
+    pub(super) fn column<T: AutoSerialize>(
         &mut self,
         name: &str,
         entries: impl ExactSizeIterator<Item = T>,
@@ -58,7 +67,7 @@ impl<W: Write + Seek> Archive<W> {
     }
 
     /// Strings, in UTF-32 as NumPy keeps them, all of the length of the longest.
-    fn names<'a>(
+    pub(super) fn names<'a>(
         &mut self,
         name: &str,
         names: impl ExactSizeIterator<Item = &'a str> + Clone,

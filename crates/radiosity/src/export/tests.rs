@@ -32,7 +32,7 @@ fn written(write: impl Fn(&Field<'_, Rgb>) -> Vec<u8>) -> (Patches<Rgb>, Vec<u8>
     let patches = Patches::new(&scene, 1.5).unwrap();
     let radiosity = radiosity(&patches);
     let irradiance: Vec<Rgb> = radiosity.iter().map(|b| *b * 10.0).collect();
-    let field = Field { scene: &scene, patches: &patches, radiosity: &radiosity, irradiance: &irradiance };
+    let field = Field::light(&scene, &patches, (&radiosity, &irradiance), Units::Radiometric);
     let bytes = write(&field);
     (patches, bytes)
 }

@@ -1,10 +1,11 @@
 //! ∫_{P_i} ∫_{P_j} cosθ cosθ′ / (π r²) dy dx between patches that nothing hides from each other.
 //!
-//! Patches apart: the product of two Gauss rules of 2 × 2 or 4 × 4 nodes. Near ones: Lambert's formula, exact
-//! over one patch, integrated adaptively over the other.
+//! Patches apart: the product of two Gauss rules of 2 × 2 or 4 × 4 nodes. Near ones, and what lies across the other's
+//! plane: the contour integral, exact to the tolerance ([`super::contour`]).
 
-use super::lambert::point_to_polygon;
+use super::contour;
 use crate::polygon::Polygon;
+use crate::view_factors::Exchange;
 use fredholm::quadrature::{Quadrature, gauss_legendre};
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -12,7 +13,7 @@ use wide::f64x4;
 
 /// The unoccluded exchange between any two of a set of patches.
 #[derive(Debug)]
-pub struct Exchange {
+pub struct Unoccluded {
     tolerance: f64,
     /// ΣA.
     area: f64,
@@ -21,8 +22,6 @@ pub struct Exchange {
     few: (f64, Vec<Nodes<1>>),
     /// The same with 4 × 4 nodes.
     many: (f64, Vec<Nodes<4>>),
-    coarse: Quadrature<[f64; 2]>,
-    fine: Quadrature<[f64; 2]>,
 }
 
 /// The Gauss nodes of a patch, one a lane.
@@ -34,7 +33,7 @@ struct Nodes<const GROUPS: usize> {
     weight: [f64x4; GROUPS],
 }
 
-impl Exchange {
+impl Unoccluded {
     /// For these patches, with an error of about `tolerance` for each pair, relative to its exchange or, where that is
     /// less, to a tenth of what two patches of these areas exchange in the mean.
     pub fn new(patches: &[Polygon], tolerance: f64) -> Self {
@@ -45,66 +44,45 @@ impl Exchange {
             diameters: patches.iter().map(Polygon::diameter).collect(),
             few: (reach(FEW, 4, tolerance), patches.iter().map(|p| Nodes::new(p, &four_points(p))).collect()),
             many: (reach(MANY, 8, tolerance), patches.iter().map(|p| Nodes::new(p, &four)).collect()),
-            coarse: gauss_legendre(2, 0.0, 1.0).squared(),
-            fine: gauss_legendre(3, 0.0, 1.0).squared(),
         }
     }
 
     /// ∫_{P_i} ∫_{P_j} cosθ cosθ′ / (π r²), in m², where both are fronts; 0 where they do not face each other.
-    pub fn between(&self, patches: &[Polygon], i: usize, j: usize) -> f64 {
+    pub fn between(&self, patches: &[Polygon], i: usize, j: usize) -> Exchange {
         let (a, b) = (&patches[i], &patches[j]);
         let (side_a, side_b) = (side_of(a, b), side_of(b, a));
         if side_a == Side::Behind || side_b == Side::Behind {
-            return 0.0;
+            return Exchange::default();
         }
-        let relative = a.centroid().distance(b.centroid()) / self.diameters[i].max(self.diameters[j]);
+        let distance = a.centroid().distance(b.centroid());
+        let relative = distance / self.diameters[i].max(self.diameters[j]);
         let (few, many) = (&self.few, &self.many);
         if side_a == Side::Across || side_b == Side::Across || relative < many.0 {
-            self.near(a, b)
-        } else if relative < few.0 {
-            product(&many.1[i], a.normal(), &many.1[j], b.normal())
+            return self.near(a, b);
+        }
+        let head_on = a.area() * b.area() / (PI * distance * distance);
+        if relative < few.0 {
+            let value = product(&many.1[i], a.normal(), &many.1[j], b.normal());
+            Exchange { value, error: MANY * head_on / relative.powi(8) }
         } else {
-            product(&few.1[i], a.normal(), &few.1[j], b.normal())
+            let value = product(&few.1[i], a.normal(), &few.1[j], b.normal());
+            Exchange { value, error: FEW * head_on / relative.powi(4) }
         }
     }
 
-    /// Lambert's formula over the larger patch, integrated over the smaller one, where it is in front of the larger.
-    fn near(&self, a: &Polygon, b: &Polygon) -> f64 {
-        let (outer, inner) = if a.area() <= b.area() { (a, b) } else { (b, a) };
-        let integral = |part: &Polygon| {
-            let coarse = self.estimate(&self.coarse, part, inner);
-            // Of the whole patch, not of a part: the cut may leave a sliver whose share is rounding.
-            let scale = coarse.max(SMALL * outer.area() * inner.area() / self.area);
-            self.adaptive(part, inner, coarse, self.tolerance * scale, DEEPEST)
-        };
-        match side_of(inner, outer) {
-            Side::Across => outer.in_front_of(inner).iter().map(integral).sum(),
-            Side::Before => integral(outer),
-            Side::Behind => 0.0,
+    /// The contour integral of what is in front of each other's plane.
+    fn near(&self, a: &Polygon, b: &Polygon) -> Exchange {
+        let tolerance = self.tolerance * SMALL * a.area() * b.area() / self.area;
+        let mut sum = Exchange::default();
+        for part in a.in_front_of(b) {
+            for other in b.in_front_of(&part) {
+                let Exchange { value, error } =
+                    contour::exchange(part.vertices(), other.vertices(), tolerance);
+                sum.value += value;
+                sum.error += error;
+            }
         }
-    }
-
-    /// ∫ over `outer` of the factor to `inner`, cut in four until two rules agree; `coarse` is what the first of them says.
-    fn adaptive(&self, outer: &Polygon, inner: &Polygon, coarse: f64, tolerance: f64, depth: u32) -> f64 {
-        let fine = self.estimate(&self.fine, outer, inner);
-        if (coarse - fine).abs() <= tolerance || depth == 0 {
-            return fine;
-        }
-        let quarters = outer.quarters();
-        let parts = quarters.iter().map(|part| {
-            let coarse = self.estimate(&self.coarse, part, inner);
-            // Four errors of half the tolerance each, of either sign, make about the tolerance.
-            self.adaptive(part, inner, coarse, 0.5 * tolerance, depth - 1)
-        });
-        parts.sum()
-    }
-
-    fn estimate(&self, rule: &Quadrature<[f64; 2]>, outer: &Polygon, inner: &Polygon) -> f64 {
-        let terms = rule.nodes.iter().zip(&rule.weights).map(|(&[s, t], w)| {
-            let (x, density) = node(outer, s, t);
-            w * density * point_to_polygon(x, outer.normal(), inner)
-        });
-        terms.sum()
+        sum
     }
 }
 
@@ -118,9 +96,6 @@ const MANY: f64 = 3e-4;
 fn reach(constant: f64, order: i32, tolerance: f64) -> f64 {
     (constant / tolerance).powf(1.0 / f64::from(order)).max(1.35)
 }
-
-/// Cuts in four, at most: at an edge that two patches share, a depth of 12 leaves 1/4096 of it.
-const DEEPEST: u32 = 12;
 
 /// A factor below this part of the mean one, A_j/ΣA, is not worth a relative tolerance.
 pub(crate) const SMALL: f64 = 0.1;
@@ -239,7 +214,7 @@ mod tests {
     /// The factor from the first polygon to the second.
     fn factor(a: &Polygon, b: &Polygon, tolerance: f64) -> f64 {
         let patches = [a.clone(), b.clone()];
-        Exchange::new(&patches, tolerance).between(&patches, 0, 1) / a.area()
+        Unoccluded::new(&patches, tolerance).between(&patches, 0, 1).value / a.area()
     }
 
     #[track_caller]
@@ -325,8 +300,8 @@ mod tests {
             Polygon::quadrilateral(at(i, j), at(i, j + 1.0), at(i + 1.0, j + 1.0), at(i + 1.0, j))
         };
         let cells: Vec<Polygon> = (0..32).map(|j| cell(2.0, f64::from(j))).collect();
-        let exchange = Exchange::new(&cells, 1e-4);
-        let between: Vec<f64> = (1..32).map(|j| exchange.between(&cells, j - 1, j)).collect();
+        let exchange = Unoccluded::new(&cells, 1e-4);
+        let between: Vec<f64> = (1..32).map(|j| exchange.between(&cells, j - 1, j).value).collect();
         assert!(between.iter().all(|e| (e / between[0] - 1.0).abs() < 2e-4), "{between:?}");
     }
 

@@ -31,10 +31,33 @@ pub fn point_to_polygon(x: DVec3, n: DVec3, polygon: &Polygon) -> f64 {
     (-turned / TAU).max(0.0)
 }
 
+/// The same to a polygon in front of which x is and which is above the horizon, given by the coordinates of its `count`
+/// vertices relative to x, the first of them again behind the last.
+pub(super) fn of_ring(n: DVec3, [x, y, z]: [&[f64; 16]; 3], count: usize) -> f64 {
+    let mut turned = 0.0;
+    for first in (0..count).step_by(4) {
+        let four = |c: &[f64; 16], from: usize| f64x4::new(std::array::from_fn(|k| c[from + k]));
+        let lanes = |from: usize| [four(x, from), four(y, from), four(z, from)];
+        let terms = terms(n, lanes(first), lanes(first + 1));
+        // Lanes behind the last edge hold what was there before.
+        turned += match count - first {
+            1 => terms.to_array()[0],
+            2 => terms.to_array()[..2].iter().sum(),
+            3 => terms.to_array()[..3].iter().sum(),
+            _ => terms.reduce_add(),
+        };
+    }
+    (-turned / TAU).max(0.0)
+}
+
 /// Σ_k Γ_k · n over the edges from a_k to b_k as seen from the origin: Γ is the edge's angle along the normal of
 /// the plane through edge and origin. Four edges go in the four lanes.
 fn edges_along_normal(n: DVec3, a: [DVec3; 4], b: [DVec3; 4]) -> f64 {
-    let ([ax, ay, az], [bx, by, bz]) = (lanes(a), lanes(b));
+    terms(n, lanes(a), lanes(b)).reduce_add()
+}
+
+#[inline(always)]
+fn terms(n: DVec3, [ax, ay, az]: [f64x4; 3], [bx, by, bz]: [f64x4; 3]) -> f64x4 {
     let x = ay * bz - az * by;
     let y = az * bx - ax * bz;
     let z = ax * by - ay * bx;
@@ -43,7 +66,7 @@ fn edges_along_normal(n: DVec3, a: [DVec3; 4], b: [DVec3; 4]) -> f64 {
     let along = x * n.x + y * n.y + z * n.z;
     let terms = sine.atan2(cosine) * along / sine;
     // An edge that is a point, or passes through the origin, is 0/0 here.
-    sine.simd_gt(f64x4::ZERO).select(terms, f64x4::ZERO).reduce_add()
+    sine.simd_gt(f64x4::ZERO).select(terms, f64x4::ZERO)
 }
 
 fn lanes(points: [DVec3; 4]) -> [f64x4; 3] {

@@ -1,7 +1,8 @@
 //! Room 5: F_ij = 1/A_i ∫_{P_i} ∫_{P_j} K(x, y) dy dx, or at the centroid of P_i alone: what F_ij *is* for light.
 //!
-//! An unoccluded factor is computed ([`lambert`], [`exchange`]); the part of it that arrives is sampled with rays
-//! (`sampled`), except where the two patches certainly see each other or certainly do not.
+//! An unoccluded factor is computed ([`lambert`], [`exchange`], [`contour`]); the part of it that arrives is sampled with rays
+//! (`sampled`), except where the two patches certainly see each other or certainly do not. View factors, which are wanted
+//! one by one and with an error each, have it clipped instead: [`pairs`].
 //!
 //! | radiosity | general theory | |
 //! |---|---|---|
@@ -9,15 +10,21 @@
 //! | point to patch, paper (3.3) | P0 collocation | [`FormFactors::point_to_patch`] |
 //! | patch to patch, paper (3.5) | P0 Galerkin | [`FormFactors::patch_to_patch`] |
 
+pub mod contour;
 pub mod exchange;
+mod kinks;
 pub mod lambert;
+mod outline;
+pub mod pairs;
+mod partly;
 pub(crate) mod sampled;
+mod shadow;
 
 use crate::kernel::{Lambertian, SurfacePoint};
 use crate::patches::{Patches, Strip};
 use crate::polygon::Polygon;
 use crate::visibility::{RayCount, Visibility};
-use exchange::Exchange;
+use exchange::Unoccluded;
 use fredholm::discretize::{Coupling, Nystrom};
 use fredholm::quadrature::Quadrature;
 use fredholm::value::Value;
@@ -54,7 +61,7 @@ enum Test {
     /// Its centroid: collocation.
     Centroid,
     /// Its whole area: Galerkin.
-    Area(Exchange),
+    Area(Unoccluded),
 }
 
 impl<'a> FormFactors<'a> {
@@ -78,7 +85,7 @@ impl<'a> FormFactors<'a> {
         visibility: &'a Visibility,
         accuracy: f64,
     ) -> Self {
-        let exchange = Exchange::new(&patches.polygons, 0.1 * accuracy);
+        let exchange = Unoccluded::new(&patches.polygons, 0.1 * accuracy);
         Self::new(patches, visibility, accuracy, Test::Area(exchange))
     }
 
@@ -101,9 +108,9 @@ impl<'a> FormFactors<'a> {
     }
 
     /// ∫_{P_i} ∫_{P_j} K, the same for (i, j) and (j, i).
-    fn between(&self, exchange: &Exchange, i: usize, j: usize, sight: Sight) -> f64 {
+    fn between(&self, exchange: &Unoccluded, i: usize, j: usize, sight: Sight) -> f64 {
         let (i, j) = (i.min(j), i.max(j));
-        let whole = exchange.between(self.patches, i, j);
+        let whole = exchange.between(self.patches, i, j).value;
         let factor = whole / self.areas[i].min(self.areas[j]);
         let a = &self.patches[i];
         whole * self.visible_part((i, j), sight, factor, |s, t| (a.point(s, t), a.density(s, t)))

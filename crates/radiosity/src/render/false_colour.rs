@@ -49,6 +49,21 @@ impl Scale {
         Self::covering(low, high, brightest)
     }
 
+    /// The scale from the lowest to the highest of some numbers, of any sign.
+    pub fn of_values(values: impl Iterator<Item = f64> + Clone) -> Self {
+        let (low, high) = values
+            .filter(|value| value.is_finite())
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+        let (low, high) = if low <= high { (low, high) } else { (0.0, 1.0) };
+        // An even map has no range of its own: it gets a hundredth of its level.
+        let margin =
+            if high - low < 1e-9 * high.abs().max(low.abs()) { 0.005 * high.abs().max(1e-9) } else { 0.0 };
+        let step = round_step((high - low + 2.0 * margin).max(f64::MIN_POSITIVE) / STEPS);
+        let first = ((low - margin) / step + 1e-9).floor() as i64;
+        let last = ((high + margin) / step - 1e-9).ceil() as i64;
+        Self { step, first, last: last.max(first + 1), cut: false }
+    }
+
     fn covering(low: f64, high: f64, brightest: f64) -> Self {
         // An even picture has no range of its own: the scale starts at nothing then.
         let low = if high - low < 0.05 * high { 0.0 } else { low };
@@ -101,10 +116,21 @@ const UNLIT: image::Rgb<u8> = image::Rgb([0, 0, 0]);
 /// The radiosity of every pixel as a colour, with a scale and a title such as "radiosity, W/m²" (in Latin-1).
 /// What is brighter than the scale has its top colour, and the top tick a ≥; black is what nothing lights.
 pub fn false_colour(picture: &Picture, scale: &Scale, title: &str) -> RgbImage {
-    let (width, height) = (picture.width as u32, picture.height as u32);
+    let lit = radiosities(picture).map(|radiosity| Some(radiosity).filter(|radiosity| *radiosity > 0.0));
+    map_of_values(lit, (picture.width, picture.height), scale, title)
+}
+
+/// A number of every pixel, from the upper left corner row by row, as a colour; black is where there is none.
+pub fn map_of_values(
+    values: impl IntoIterator<Item = Option<f64>>,
+    (width, height): (usize, usize),
+    scale: &Scale,
+    title: &str,
+) -> RgbImage {
+    let (width, height) = (width as u32, height as u32);
     let mut canvas = Canvas(RgbImage::from_pixel(width + MARGIN.0, height + 2 * MARGIN.1, PAPER));
-    for (k, radiosity) in radiosities(picture).enumerate() {
-        let colour = if radiosity > 0.0 { image::Rgb(viridis(scale.position(radiosity))) } else { UNLIT };
+    for (k, value) in values.into_iter().enumerate() {
+        let colour = value.map_or(UNLIT, |value| image::Rgb(viridis(scale.position(value))));
         canvas.0.put_pixel(k as u32 % width, MARGIN.1 + k as u32 / width, colour);
     }
     let Ok(()) = draw_legend(&mut canvas, scale, title, (width, height));
@@ -205,6 +231,17 @@ mod tests {
         let scale = Scale::around(room().collect(), 500.0);
         assert_eq!((scale.ticks().next(), scale.ticks().last(), scale.cut), (Some(1.0), Some(2.0), true));
         assert!(!Scale::around(room().collect(), 2.0).cut);
+    }
+
+    #[test]
+    fn numbers_of_any_sign_have_a_scale_that_holds_them() {
+        let scale = Scale::of_values([-340.0, f64::NAN, 120.0].into_iter());
+        assert_eq!(labels(&scale), ["-400", "-300", "-200", "-100", "0", "100", "200"]);
+        for even in [300.0, 0.0, -5.0] {
+            let scale = Scale::of_values([even; 3].into_iter());
+            assert!((0.0..=1.0).contains(&scale.position(even)) && scale.ticks().count() > 1, "{scale:?}");
+        }
+        assert!(Scale::of_values([].into_iter()).ticks().count() > 1);
     }
 
     #[test]

@@ -13,7 +13,7 @@ mod tone;
 mod view;
 
 pub use colour::Colour;
-pub use false_colour::{Scale, false_colour};
+pub use false_colour::{Scale, false_colour, map_of_values};
 pub use final_picture::final_picture;
 pub use picture::Picture;
 pub use preview::Preview;

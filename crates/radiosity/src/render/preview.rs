@@ -30,6 +30,20 @@ impl Preview {
         Self { fragments: Fragments::new(shape, polygons, visibility, patch_at) }
     }
 
+    /// The mean of a number of each patch over what a pixel shows; none where most of it shows nothing, or something
+    /// without a number (NaN).
+    pub fn values(&self, values: &[f64]) -> Vec<Option<f64>> {
+        let pixel = |pixel: usize| {
+            let shown = self.fragments.all[self.fragments.of_pixel(pixel)].iter();
+            let (sum, weight) = shown
+                .map(|fragment| (values[fragment.shown as usize], fragment.weight))
+                .filter(|(value, _)| value.is_finite())
+                .fold((0.0, 0.0), |(sum, all), (value, weight)| (sum + value * weight, all + weight));
+            (weight >= 0.5).then(|| sum / weight)
+        };
+        (0..self.fragments.width * self.fragments.height).map(pixel).collect()
+    }
+
     /// The picture of these radiosities, in W/m², one per patch.
     pub fn draw<V: Colour>(&self, radiosity: &[V]) -> Picture {
         let radiance: Vec<_> = radiosity.iter().map(|b| b.to_rgb() * (1.0 / PI)).collect();

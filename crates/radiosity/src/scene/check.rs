@@ -12,14 +12,24 @@ impl<V: Value> Scene<V> {
     /// When a reflectance lies outside [0, 1), an emission is negative or infinite, a polygon has no area, the camera
     /// cannot see, or there are no faces or no light at all.
     pub fn check(&self) -> Result<(), Problem> {
+        self.check_shape()?;
+        self.check_light()
+    }
+
+    /// Checks all but that there is light.
+    pub(super) fn check_shape(&self) -> Result<(), Problem> {
         self.surfaces.iter().try_for_each(surface)?;
         if self.surfaces.iter().all(|surface| surface.polygons.is_empty()) {
             return Err(Problem::NoFaces);
         }
+        self.camera.as_ref().map_or(Ok(()), Camera::check)
+    }
+
+    pub(super) fn check_light(&self) -> Result<(), Problem> {
         if self.surfaces.iter().all(|surface| surface.emission.magnitude() == 0.0) {
             return Err(Problem::NoLight);
         }
-        self.camera.as_ref().map_or(Ok(()), Camera::check)
+        Ok(())
     }
 }
 

@@ -16,6 +16,12 @@ const ROUNDING: f64 = 1e-12;
 /// that a smaller distance between corners means nothing; a larger one may be a real edge (1 mm of 1 km).
 const NOTHING: f64 = 1e-6;
 
+/// The checks compare every pair of corners: a face of so many takes a second, and no building has one.
+const MOST_CORNERS: usize = 10_000;
+
+/// Areas are the lengths of products of edges: the fourth power of a size must be a number.
+const SIZES: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
+
 /// Cuts a planar face into convex polygons, in the order of its corners; front is where they run counter-clockwise.
 ///
 /// A triangle or a convex quadrilateral stays whole, all else becomes triangles; so does a quadrilateral whose
@@ -24,17 +30,24 @@ const NOTHING: f64 = 1e-6;
 ///
 /// # Errors
 ///
-/// When the corners are fewer than three, not finite, repeated, on one line, not on one plane, or when the outline
+/// When the corners are fewer than three or more than 10 000, not finite, repeated, immensely
+/// far apart or near, on one line, not on one plane, or when the outline
 /// meets itself.
 pub fn cut(corners: &[DVec3]) -> Result<Vec<Polygon>, Problem> {
     if corners.len() < 3 {
         return Err(Problem::TooFewCorners(corners.len()));
+    }
+    if corners.len() > MOST_CORNERS {
+        return Err(Problem::TooManyCorners { count: corners.len(), most: MOST_CORNERS });
     }
     if let Some(value) = corners.iter().flat_map(DVec3::to_array).find(|c| !c.is_finite()) {
         return Err(Problem::NotFinite(value));
     }
     let (first, second) = farthest_pair(corners);
     let diameter = corners[first].distance(corners[second]);
+    if diameter > 0.0 && !SIZES.contains(&diameter) {
+        return Err(Problem::Size(diameter));
+    }
     let shape: Vec<DVec3> = corners.iter().map(|&corner| (corner - corners[0]) / diameter).collect();
     check_distinct(&shape)?;
     let normal = normal(&shape, (shape[second] - shape[first]).normalize())?;

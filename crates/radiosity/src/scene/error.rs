@@ -3,6 +3,7 @@
 use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A scene that cannot be used: `room.obj:12: vertex 9 does not exist: …`.
 #[derive(Debug, thiserror::Error)]
@@ -14,30 +15,64 @@ pub struct Error {
     pub problem: Problem,
 }
 
-/// A file, and a line of it where one can be named.
+/// What does not stop a scene but should be known: `part.stl: 3 faces without area are left out: …`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warning {
+    /// Where.
+    pub place: Place,
+    /// What, in a sentence.
+    pub message: String,
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.place, self.message)
+    }
+}
+
+/// A file, and a line or a byte of it where one can be named.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
-    /// The file, by the path under which it was opened.
-    pub file: PathBuf,
-    /// The line, counted from 1.
+    /// The file, by the path under which it was opened; shared, since each face of a mesh has its place.
+    pub file: Arc<Path>,
+    /// The line of a text file, counted from 1.
     pub line: Option<usize>,
+    /// The byte of a binary file, counted from 0.
+    pub byte: Option<usize>,
+}
+
+/// A place in a file that is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Spot {
+    Line(usize),
+    Byte(usize),
 }
 
 impl Place {
     pub(super) fn file(file: &Path) -> Self {
-        Self { file: file.to_owned(), line: None }
+        Self { file: file.into(), line: None, byte: None }
     }
 
     pub(super) fn line(file: &Path, line: usize) -> Self {
-        Self { file: file.to_owned(), line: Some(line) }
+        Self { line: Some(line), ..Self::file(file) }
+    }
+
+    pub(super) fn spot(file: &Arc<Path>, spot: Spot) -> Self {
+        let (line, byte) = match spot {
+            Spot::Line(line) => (Some(line), None),
+            Spot::Byte(byte) => (None, Some(byte)),
+        };
+        Self { file: Arc::clone(file), line, byte }
     }
 }
 
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.line {
-            Some(line) => write!(f, "{}:{line}", self.file.display()),
-            None => write!(f, "{}", self.file.display()),
+        write!(f, "{}", self.file.display())?;
+        match (self.line, self.byte) {
+            (Some(line), _) => write!(f, ":{line}"),
+            (None, Some(byte)) => write!(f, ", byte {byte}"),
+            (None, None) => Ok(()),
         }
     }
 }
@@ -54,7 +89,10 @@ pub enum Problem {
         reason: io::Error,
     },
     /// No reader for files of this kind.
-    #[error("files of the kind `{0}` are not read; scenes are read from .obj and .toml, meshes from .obj")]
+    #[error(
+        "files of the kind `{0}` are not read; scenes are read from .toml and from meshes, and these from .obj, \
+         .stl, .ply and .vs3"
+    )]
     UnknownFormat(String),
     /// A text file in another encoding, or no text at all.
     #[error("this is not UTF-8 text; save the file as UTF-8 (plain ASCII will do)")]
@@ -78,6 +116,19 @@ pub enum Problem {
     /// A face that is a point or a line.
     #[error("a face needs at least 3 corners, this one has {0}; remove it")]
     TooFewCorners(usize),
+    /// A face that would take hours to cut.
+    #[error("a face may have {most} corners, this one has {count}; cut it in smaller ones")]
+    TooManyCorners {
+        /// How many it has.
+        count: usize,
+        /// How many it may have.
+        most: usize,
+    },
+    /// A face of a size whose square or square root of a product no `f64` holds.
+    #[error(
+        "the face is {0:e} m across; lengths from 1e-60 m to 1e60 m can be computed with: check the unit"
+    )]
+    Size(f64),
     /// A face that visits a vertex twice.
     #[error(
         "corners {first} and {second} of the face are the same point; remove one, or cut the face in two there"
@@ -159,13 +210,16 @@ pub enum Problem {
         known: String,
     },
     /// A scene without faces.
-    #[error("the scene has no faces; export the mesh with its faces (`f` lines), or name other meshes")]
+    #[error("the scene has no faces; export the mesh with its faces, or name other meshes")]
     NoFaces,
     /// A scene in which it is night.
     #[error(
         "no surface emits light, so the solution is zero; give a material a `radiance` (.toml) or a `Ke` (.mtl)"
     )]
     NoLight,
+    /// A surface that exchanges no heat as it is described.
+    #[error(transparent)]
+    Thermal(#[from] crate::thermal::ThermalError),
     /// A camera at infinity.
     #[error("the camera's position, target and up must be finite numbers")]
     CameraNotFinite,

@@ -3,11 +3,14 @@
 //! ```toml
 //! name = "Office"                       # optional; else the file's name
 //! unit = "mm"                           # of the meshes and of every length here: mm, cm, m, in, ft, or metres as a number
-//! meshes = ["room.obj", "desk.obj"]     # beside this file
+//! meshes = ["room.obj", "desk.stl"]     # beside this file: .obj, .stl, .ply, .vs3
 //!
 //! [materials.white]                     # a material by its name in the meshes; what is not given stays as it is there
 //! reflectance = 0.8                     # or [red, green, blue]
 //! radiance = [17, 12, 4]                # W/(m² sr); or `emission`, the exitance π × radiance in W/m²
+//!                                       # with `units = "photometric"` in the first lines instead, and one number each:
+//!                                       # `luminance` in cd/m², `luminous_exitance` in lm/m², or `luminous_flux` in lm
+//!                                       # of each surface of the material
 //!
 //! [camera]
 //! position = [1000, -3000, 1500]
@@ -26,7 +29,8 @@
 use super::error::{Error, Place, Problem};
 use super::load::{Loaded, SolveOptions, read_mesh};
 use super::material::{Located, Material};
-use super::mesh::{self, Mesh};
+use super::mesh::{self, Assembled, Mesh};
+use super::photometric::{self, Units};
 use super::{Camera, Scene, text};
 use fredholm::value::{Rgb, Spectrum};
 use glam::DVec3;
@@ -39,30 +43,33 @@ use std::path::Path;
 use toml::Spanned;
 
 /// The scene of a TOML file and what it says on how to solve it.
-pub(super) fn load(file: &Path) -> Result<Loaded, Error> {
+pub(super) fn load(file: &Path, units: Option<Units>) -> Result<Loaded, Error> {
     let text = text::read(file, &Place::file(file))?;
     let source = Source { file, text: &text };
     let entry: SceneEntry = toml::from_str(&text).map_err(|error| source.syntax(&error))?;
+    let units = units.or(entry.units).unwrap_or_default();
     let Unit(metres) = entry.unit;
     let meshes = source.meshes(&entry.meshes, metres)?;
     let places = entry.materials.keys().map(|name| (name.get_ref().as_str(), source.place(&name.span())));
     mesh::check_overrides_are_used(&meshes, places)?;
-    let overrides = source.overrides(&entry.materials)?;
+    let overrides = source.overrides(&entry.materials, units)?;
+    if units == Units::Photometric {
+        photometric::check_grey(&meshes, &overrides)?;
+    }
     let camera = entry.camera.map(|camera| source.camera(&camera, metres)).transpose()?;
-    let scene = Scene {
-        name: entry.name.unwrap_or_else(|| super::load::file_name(file)),
-        surfaces: mesh::surfaces(meshes, &overrides)?,
-        camera,
-    };
+    let Assembled { surfaces, faces, warnings } = mesh::assemble(meshes, &overrides)?;
+    let name = entry.name.unwrap_or_else(|| super::load::file_name(file));
+    let scene = Scene { name, surfaces, camera };
     let mut solve = entry.solve;
     solve.patch_size = solve.patch_size.map(|size| size * metres);
-    Ok(Loaded { scene, solve })
+    Ok(Loaded { scene, solve, faces, warnings, control: None, units })
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SceneEntry {
     name: Option<String>,
+    units: Option<Units>,
     unit: Unit,
     meshes: Spanned<Vec<Spanned<String>>>,
     #[serde(default)]
@@ -78,11 +85,14 @@ struct MaterialEntry {
     reflectance: Option<Spanned<Channels>>,
     radiance: Option<Spanned<Channels>>,
     emission: Option<Spanned<Channels>>,
+    luminance: Option<Spanned<f64>>,
+    luminous_exitance: Option<Spanned<f64>>,
+    luminous_flux: Option<Spanned<f64>>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct CameraEntry {
+pub(super) struct CameraEntry {
     position: [f64; 3],
     target: Option<[f64; 3]>,
     direction: Option<[f64; 3]>,
@@ -109,7 +119,7 @@ impl Channels {
 /// A unit of length, in metres.
 #[derive(Deserialize)]
 #[serde(try_from = "UnitEntry")]
-struct Unit(f64);
+pub(super) struct Unit(pub f64);
 
 #[derive(Deserialize)]
 #[serde(
@@ -157,26 +167,53 @@ pub(super) fn positive<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Opt
     }
 }
 
+/// Light in lumens.
+enum Luminous {
+    /// In lm/m².
+    Exitance(Located),
+    /// In lm, of each surface.
+    Flux(Located),
+}
+
+/// Keys of [thermal scenes](super::load_thermal) alone.
+const THERMAL: [&str; 9] = [
+    "emissivity",
+    "temperature",
+    "emissive_power",
+    "heat_flux",
+    "heat",
+    "linked",
+    "bands",
+    "surroundings",
+    "enclosure",
+];
+
 /// The file, to turn places in its text into lines.
-struct Source<'a> {
-    file: &'a Path,
-    text: &'a str,
+pub(super) struct Source<'a> {
+    pub file: &'a Path,
+    pub text: &'a str,
 }
 
 impl Source<'_> {
-    fn place(&self, span: &Range<usize>) -> Place {
+    pub fn place(&self, span: &Range<usize>) -> Place {
         let before = self.text.as_bytes().iter().take(span.start);
         Place::line(self.file, 1 + before.filter(|&&byte| byte == b'\n').count())
     }
 
-    fn syntax(&self, error: &toml::de::Error) -> Error {
+    pub fn syntax(&self, error: &toml::de::Error) -> Error {
         let place = error.span().map_or_else(|| Place::file(self.file), |span| self.place(&span));
-        Problem::Malformed(error.message().replace('\n', "; ")).at(place)
+        let message = error.message().replace('\n', "; ");
+        let hint = if THERMAL.iter().any(|key| message.starts_with(&format!("unknown field `{key}`"))) {
+            "; a thermal scene is solved with --thermal"
+        } else {
+            ""
+        };
+        Problem::Malformed(message + hint).at(place)
     }
 
-    fn meshes(&self, names: &Spanned<Vec<Spanned<String>>>, metres: f64) -> Result<Vec<Mesh>, Error> {
+    pub fn meshes(&self, names: &Spanned<Vec<Spanned<String>>>, metres: f64) -> Result<Vec<Mesh>, Error> {
         if names.get_ref().is_empty() {
-            let problem = Problem::Malformed("`meshes` is empty; name at least one .obj file".to_owned());
+            let problem = Problem::Malformed("`meshes` is empty; name at least one mesh".to_owned());
             return Err(problem.at(self.place(&names.span())));
         }
         let read = |name: &Spanned<String>| {
@@ -188,8 +225,57 @@ impl Source<'_> {
     fn overrides(
         &self,
         entries: &BTreeMap<Spanned<String>, MaterialEntry>,
+        units: Units,
     ) -> Result<BTreeMap<String, Material>, Error> {
-        entries.iter().map(|(name, entry)| Ok((name.get_ref().clone(), self.material(entry)?))).collect()
+        let material = |(name, entry): (&Spanned<String>, &MaterialEntry)| {
+            let name = name.get_ref();
+            let material = self.material(entry)?;
+            let material = match self.luminous(name, entry, units)? {
+                Some(Luminous::Exitance(exitance)) => Material { emission: Some(exitance), ..material },
+                Some(Luminous::Flux(flux)) => Material { power: Some(flux), ..material },
+                None => material,
+            };
+            Ok((name.clone(), material))
+        };
+        entries.iter().map(material).collect()
+    }
+
+    /// The light of a photometric entry; none where it says nothing of light.
+    fn luminous(&self, name: &str, entry: &MaterialEntry, units: Units) -> Result<Option<Luminous>, Error> {
+        let MaterialEntry { luminance, luminous_exitance, luminous_flux, .. } = entry;
+        let at = |what: &str, span: &Range<usize>| Problem::Malformed(what.to_owned()).at(self.place(span));
+        let given: Vec<_> = [
+            ("luminance", luminance, PI),
+            ("luminous_exitance", luminous_exitance, 1.0),
+            ("luminous_flux", luminous_flux, 1.0),
+        ]
+        .into_iter()
+        .filter_map(|(key, value, factor)| value.as_ref().map(|value| (key, value, factor)))
+        .collect();
+        let watts = entry.radiance.as_ref().or(entry.emission.as_ref());
+        match (units, watts, &given[..]) {
+            (Units::Photometric, Some(watts), _) => Err(at(
+                "`radiance` and `emission` are in watts, and the scene is photometric; give `luminance` in cd/m², \
+                 `luminous_exitance` in lm/m² or `luminous_flux` in lm",
+                &watts.span(),
+            )),
+            (_, _, []) => Ok(None),
+            (Units::Radiometric, _, [(_, value, _), ..]) => Err(at(
+                "this is photometric; write `units = \"photometric\"` above all tables, or give `radiance` or `emission`",
+                &value.span(),
+            )),
+            (_, _, [_, (_, second, _), ..]) => Err(at(
+                "`luminance`, `luminous_exitance` and `luminous_flux` say the same; give one of them",
+                &second.span(),
+            )),
+            (_, _, [(key, value, factor)]) => {
+                let place = self.place(&value.span());
+                photometric::check_photometric(name, key, *value.get_ref(), &place)?;
+                let located = Located { value: Spectrum([value.get_ref() * factor; 3]), place };
+                let kind = if *key == "luminous_flux" { Luminous::Flux } else { Luminous::Exitance };
+                Ok(Some(kind(located)))
+            }
+        }
     }
 
     fn material(&self, entry: &MaterialEntry) -> Result<Material, Error> {
@@ -209,10 +295,11 @@ impl Source<'_> {
         Ok(Material {
             reflectance: entry.reflectance.as_ref().map(|channels| located(channels, 1.0)),
             emission,
+            power: None,
         })
     }
 
-    fn camera(&self, entry: &Spanned<CameraEntry>, metres: f64) -> Result<Camera, Error> {
+    pub fn camera(&self, entry: &Spanned<CameraEntry>, metres: f64) -> Result<Camera, Error> {
         let camera = entry.get_ref().camera(metres);
         camera
             .and_then(|camera| camera.check().map(|()| camera))

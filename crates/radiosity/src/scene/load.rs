@@ -1,8 +1,11 @@
 //! The door of room 1: a path becomes a scene, by the reader that its extension names.
 
-use super::error::{Error, Place, Problem};
-use super::mesh::{self, Mesh};
-use super::{Scene, file, obj};
+use super::error::{Error, Place, Problem, Warning};
+use super::face::Face;
+use super::mesh::{self, Assembled, Mesh};
+use super::photometric::{self, Units};
+use super::vs3::Control;
+use super::{Scene, file, obj, ply, stl, vs3};
 use fredholm::value::Rgb;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -15,6 +18,14 @@ pub struct Loaded {
     pub scene: Scene<Rgb>,
     /// What the file says in place of the defaults.
     pub solve: SolveOptions,
+    /// What the files call a face, and the polygons of [`Scene::polygons`] that it was cut in; in their order.
+    pub faces: Vec<Face>,
+    /// What the readers passed over or left out, to be told.
+    pub warnings: Vec<Warning>,
+    /// How a View3D file asks for its view factors; `None` for any other.
+    pub control: Option<Control>,
+    /// What its light is measured in; where that is lumens all channels are the same: [`Self::grey`].
+    pub units: Units,
 }
 
 /// How a scene asks to be solved; `None` where it does not say.
@@ -42,25 +53,59 @@ pub struct SolveOptions {
 ///
 /// When a file cannot be read or understood, or the scene is none that can be solved: see [`Problem`].
 pub fn load(path: &Path) -> Result<Loaded, Error> {
-    let loaded = match extension(path).as_str() {
-        "toml" => file::load(path)?,
-        _ => bare_mesh(path)?,
-    };
-    loaded.scene.check().map_err(|problem| problem.at(Place::file(path)))?;
+    load_in(path, None)
+}
+
+/// The same in these units, whatever a scene file says. In a mesh alone `Ke` is the luminance in cd/m² if they are
+/// photometric.
+///
+/// # Errors
+///
+/// As of [`load`], and when a photometric scene has colours.
+pub fn load_in(path: &Path, units: Option<Units>) -> Result<Loaded, Error> {
+    let loaded = read(path, units)?;
+    loaded.scene.check_light().map_err(|problem| problem.at(Place::file(path)))?;
     Ok(loaded)
 }
 
-fn bare_mesh(path: &Path) -> Result<Loaded, Error> {
-    let mesh = read_mesh(path, 1.0, &Place::file(path))?;
-    let surfaces = mesh::surfaces(vec![mesh], &BTreeMap::new())?;
-    let scene = Scene { name: file_name(path), surfaces, camera: None };
-    Ok(Loaded { scene, solve: SolveOptions::default() })
+/// Reads a scene as [`load`] does, and takes one in which nothing emits: a view factor is a matter of shape alone,
+/// and most mesh files know of no light.
+///
+/// # Errors
+///
+/// Those of [`load`], but for [`Problem::NoLight`].
+pub fn load_unlit(path: &Path) -> Result<Loaded, Error> {
+    read(path, None)
+}
+
+fn read(path: &Path, units: Option<Units>) -> Result<Loaded, Error> {
+    let loaded = match extension(path).as_str() {
+        "toml" => file::load(path, units)?,
+        _ => bare_mesh(path, units.unwrap_or_default())?,
+    };
+    loaded.scene.check_shape().map_err(|problem| problem.at(Place::file(path)))?;
+    Ok(loaded)
+}
+
+fn bare_mesh(path: &Path, units: Units) -> Result<Loaded, Error> {
+    let mut mesh = read_mesh(path, 1.0, &Place::file(path))?;
+    let (name, control) = (mesh.title.take().unwrap_or_else(|| file_name(path)), mesh.control.take());
+    let (meshes, overrides) = (vec![mesh], BTreeMap::new());
+    if units == Units::Photometric {
+        photometric::check_grey(&meshes, &overrides)?;
+    }
+    let Assembled { surfaces, faces, warnings } = mesh::assemble(meshes, &overrides)?;
+    let scene = Scene { name, surfaces, camera: None };
+    Ok(Loaded { scene, solve: SolveOptions::default(), faces, warnings, control, units })
 }
 
 /// The mesh of a file, by its extension; lengths in the file are so many `metres`.
 pub(super) fn read_mesh(path: &Path, metres: f64, named_at: &Place) -> Result<Mesh, Error> {
     match extension(path).as_str() {
         "obj" => obj::read(path, metres, named_at),
+        "stl" => stl::read(path, metres, named_at),
+        "ply" => ply::read(path, metres, named_at),
+        "vs3" => vs3::read(path, metres, named_at),
         other => Err(Problem::UnknownFormat(other.to_owned()).at(named_at.clone())),
     }
 }

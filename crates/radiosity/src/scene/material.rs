@@ -17,6 +17,8 @@ pub(super) struct Material {
     pub reflectance: Option<Located>,
     /// The exitance, in W/m².
     pub emission: Option<Located>,
+    /// In its place the power of each surface of the material, here of the area 1.
+    pub power: Option<Located>,
 }
 
 impl Material {
@@ -24,15 +26,21 @@ impl Material {
     pub fn overridden_by(&self, over: &Self) -> Self {
         Self {
             reflectance: over.reflectance.clone().or_else(|| self.reflectance.clone()),
-            emission: over.emission.clone().or_else(|| self.emission.clone()),
+            emission: match over.power {
+                Some(_) => None,
+                None => over.emission.clone().or_else(|| self.emission.clone()),
+            },
+            power: over.power.clone(),
         }
     }
 
-    /// Reflectance and emission. Without an emission given it is 0; without a reflectance given that is 0 for
-    /// what emits, as of a lamp, and ½ for what does not.
-    pub fn resolve(&self, name: &str) -> Result<(Rgb, Rgb), Error> {
+    /// Reflectance and emission of a surface of some area. Without an emission given it is 0; without a reflectance given
+    /// that is 0 for what emits, as of a lamp, and ½ for what does not.
+    pub fn resolve(&self, name: &str, area: f64) -> Result<(Rgb, Rgb), Error> {
         let owner = format!("material `{name}`");
-        let emission = match &self.emission {
+        let spread =
+            |power: &Located| Located { value: power.value * (1.0 / area), place: power.place.clone() };
+        let emission = match &self.emission.clone().or_else(|| self.power.as_ref().map(spread)) {
             Some(Located { value, place }) => {
                 check::emission(&owner, value).map_err(|problem| problem.at(place.clone()))?;
                 *value
@@ -61,7 +69,9 @@ mod tests {
 
     #[test]
     fn a_silent_material_is_grey_and_a_silent_lamp_black() {
-        let resolved = |reflectance, emission| Material { reflectance, emission }.resolve("m").unwrap();
+        let resolved = |reflectance, emission| {
+            Material { reflectance, emission, power: None }.resolve("m", 1.0).unwrap()
+        };
         assert_eq!(resolved(None, None), (Rgb::splat(0.5), Rgb::splat(0.0)));
         assert_eq!(resolved(None, given(0.0)), (Rgb::splat(0.5), Rgb::splat(0.0)));
         assert_eq!(resolved(None, given(2.0)), (Rgb::splat(0.0), Rgb::splat(2.0)));
@@ -70,8 +80,15 @@ mod tests {
 
     #[test]
     fn an_override_leaves_alone_what_it_does_not_name() {
-        let mesh = Material { reflectance: given(0.3), emission: given(1.0) };
-        let over = Material { reflectance: given(0.6), emission: None };
-        assert_eq!(mesh.overridden_by(&over).resolve("m").unwrap(), (Rgb::splat(0.6), Rgb::splat(1.0)));
+        let mesh = Material { reflectance: given(0.3), emission: given(1.0), power: None };
+        let over = Material { reflectance: given(0.6), emission: None, power: None };
+        assert_eq!(mesh.overridden_by(&over).resolve("m", 1.0).unwrap(), (Rgb::splat(0.6), Rgb::splat(1.0)));
+    }
+
+    #[test]
+    fn a_power_is_spread_over_the_area_and_goes_before_the_meshs_emission() {
+        let mesh = Material { reflectance: given(0.3), emission: given(1.0), power: None };
+        let over = Material { reflectance: None, emission: None, power: given(10.0) };
+        assert_eq!(mesh.overridden_by(&over).resolve("m", 4.0).unwrap(), (Rgb::splat(0.3), Rgb::splat(2.5)));
     }
 }

@@ -1,24 +1,108 @@
-//! What any mesh file comes to: groups of polygons and the materials that it names; and surfaces made of them.
+//! What any mesh file comes to: groups of faces and the materials that it names; and surfaces made of them.
 
 use super::Surface;
-use super::error::{Error, Place, Problem, listed};
+use super::cut::cut;
+use super::error::{Error, Place, Problem, Spot, Warning, listed};
+use super::face::{self, Face};
 use super::material::Material;
+use super::vs3::Control;
 use crate::polygon::Polygon;
 use fredholm::value::Rgb;
+use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
 
 /// A mesh in metres, as its reader leaves it.
-#[derive(Default)]
 pub(super) struct Mesh {
+    pub file: Arc<Path>,
+    /// What the file calls itself.
+    pub title: Option<String>,
     pub groups: Vec<Group>,
     pub materials: BTreeMap<String, Material>,
+    pub warnings: Vec<Warning>,
+    pub control: Option<Control>,
+    left_out: LeftOut,
 }
 
-/// Polygons with one name and one material.
+/// Faces with one name and one material.
 pub(super) struct Group {
     pub name: Option<String>,
     pub material: Option<MaterialName>,
     pub polygons: Vec<Polygon>,
+    /// For each face the number of polygons up to its end, and where it stands.
+    faces: Vec<(usize, Spot)>,
+    pub is_obstruction: bool,
+    /// Another group, by its number in the mesh; both are of one face.
+    pub combined_with: Option<usize>,
+}
+
+/// Faces without area.
+#[derive(Default)]
+struct LeftOut {
+    count: usize,
+    first: Option<Spot>,
+}
+
+impl Mesh {
+    pub fn new(file: &Path) -> Self {
+        let (title, groups, materials, warnings, control, left_out) = Default::default();
+        Self { file: file.into(), title, groups, materials, warnings, control, left_out }
+    }
+
+    /// Begins a group of a format without materials: a scene file can give it one by the group's name.
+    pub fn begin(&mut self, name: &str) {
+        let material = MaterialName { name: name.to_owned(), place: Place::file(&self.file) };
+        self.materials.entry(name.to_owned()).or_default();
+        self.groups.push(Group::new(None, Some(material)));
+    }
+
+    /// Adds a face of a file that only programs write, to the last group. Such files are full of triangles without
+    /// area, which neither emit nor hide anything: they are counted and left out.
+    pub fn push_exported(&mut self, corners: &[DVec3], spot: Spot) -> Result<(), Error> {
+        match (cut(corners), self.groups.last_mut()) {
+            (Ok(polygons), Some(group)) => group.push(polygons, spot),
+            (Ok(_), None) => {}
+            (Err(problem), _) if is_without_area(&problem, corners.len()) => {
+                self.left_out.count += 1;
+                self.left_out.first.get_or_insert(spot);
+            }
+            (Err(problem), _) => return Err(problem.at(self.place(spot))),
+        }
+        Ok(())
+    }
+
+    pub fn place(&self, spot: Spot) -> Place {
+        Place::spot(&self.file, spot)
+    }
+
+    pub fn warn(&mut self, place: Place, message: String) {
+        self.warnings.push(Warning { place, message });
+    }
+
+    /// The mesh, once all is read: without groups that have no face, and with a word on what was left out.
+    pub fn finished(mut self) -> Self {
+        self.groups.retain(|group| !group.faces.is_empty());
+        if let LeftOut { count, first: Some(first) } = self.left_out {
+            let (faces, are) = if count == 1 { ("face", "is") } else { ("faces", "are") };
+            let message = format!(
+                "{count} {faces} without area {are} left out, the first here: its corners are one point or lie on \
+                 one line. Nothing is lost unless the mesh should be closed there"
+            );
+            self.warn(self.place(first), message);
+        }
+        self
+    }
+}
+
+/// In a triangle with two corners in one point, or with all on one line. More corners may still have area.
+fn is_without_area(problem: &Problem, corners: usize) -> bool {
+    match problem {
+        Problem::Degenerate(_) => true,
+        Problem::RepeatedCorner { .. } => corners == 3,
+        _ => false,
+    }
 }
 
 /// The name of a material, and where it is called by it.
@@ -29,6 +113,23 @@ pub(super) struct MaterialName {
 }
 
 impl Group {
+    pub fn new(name: Option<String>, material: Option<MaterialName>) -> Self {
+        let (polygons, faces, is_obstruction, combined_with) = Default::default();
+        Self { name, material, polygons, faces, is_obstruction, combined_with }
+    }
+
+    /// Adds a face, in its polygons.
+    pub fn push(&mut self, polygons: impl IntoIterator<Item = Polygon>, spot: Spot) {
+        self.polygons.extend(polygons);
+        self.faces.push((self.polygons.len(), spot));
+    }
+
+    /// The polygons of each face, in the group's numbers, and where it stands.
+    fn ranges(&self) -> impl Iterator<Item = (Range<usize>, Spot)> {
+        let starts = std::iter::once(0).chain(self.faces.iter().map(|&(end, _)| end));
+        starts.zip(&self.faces).map(|(start, &(end, spot))| (start..end, spot))
+    }
+
     fn material_name(&self) -> Option<&str> {
         self.material.as_ref().map(|material| material.name.as_str())
     }
@@ -43,23 +144,57 @@ impl Group {
     }
 }
 
+/// What all meshes of a scene come to.
+#[derive(Default)]
+pub(super) struct Assembled {
+    pub surfaces: Vec<Surface<Rgb>>,
+    pub faces: Vec<Face>,
+    pub warnings: Vec<Warning>,
+}
+
 /// The surfaces of all meshes, in order, under names that differ; `overrides` go before the meshes' own materials.
-pub(super) fn surfaces(
+pub(super) fn assemble(
     meshes: Vec<Mesh>,
     overrides: &BTreeMap<String, Material>,
-) -> Result<Vec<Surface<Rgb>>, Error> {
-    let mut taken = BTreeSet::new();
-    let mut surfaces = Vec::new();
+) -> Result<Assembled, Error> {
+    let (mut taken, mut polygons) = (BTreeSet::new(), 0);
+    let mut assembled = Assembled::default();
     for mesh in meshes {
         let materials = overridden(mesh.materials, overrides);
         let names = surface_names(&mesh.groups);
+        let first_face = assembled.faces.len();
         for (group, name) in mesh.groups.into_iter().zip(names) {
-            let (reflectance, emission) = resolve(group.material.as_ref(), &materials)?;
+            let area = group.polygons.iter().map(Polygon::area).sum();
+            let (reflectance, emission) = resolve(group.material.as_ref(), area, &materials)?;
             let name = unique(name, &mut taken);
-            surfaces.push(Surface { name, reflectance, emission, polygons: group.polygons });
+            let surface = assembled.surfaces.len();
+            assembled.faces.extend(group.ranges().enumerate().map(|(number, (range, spot))| Face {
+                name: face::numbered(&name, number, group.faces.len()),
+                surface,
+                polygons: polygons + range.start..polygons + range.end,
+                place: Some(Place::spot(&mesh.file, spot)),
+                is_obstruction: group.is_obstruction,
+                combined_with: group.combined_with.map(|other| first_face + other),
+            }));
+            polygons += group.polygons.len();
+            assembled.surfaces.push(Surface { name, reflectance, emission, polygons: group.polygons });
         }
+        assembled.warnings.extend(mesh.warnings);
     }
-    Ok(surfaces)
+    Ok(assembled)
+}
+
+/// The groups of all meshes, in order, under names that differ.
+pub(super) fn named(meshes: Vec<Mesh>) -> Vec<(String, Group)> {
+    let mut taken = BTreeSet::new();
+    let mut named = Vec::new();
+    for mesh in meshes {
+        let names = surface_names(&mesh.groups);
+        named.extend(
+            mesh.groups.into_iter().zip(names).map(|(group, name)| (unique(name, &mut taken), group)),
+        );
+    }
+    named
 }
 
 /// That every override is of a material that some face is of.
@@ -89,12 +224,16 @@ fn overridden(
     materials
 }
 
-fn resolve(name: Option<&MaterialName>, materials: &BTreeMap<String, Material>) -> Result<(Rgb, Rgb), Error> {
+fn resolve(
+    name: Option<&MaterialName>,
+    area: f64,
+    materials: &BTreeMap<String, Material>,
+) -> Result<(Rgb, Rgb), Error> {
     let Some(MaterialName { name, place }) = name else {
-        return Material::default().resolve("none");
+        return Material::default().resolve("none", area);
     };
     match materials.get(name) {
-        Some(material) => material.resolve(name),
+        Some(material) => material.resolve(name, area),
         None => {
             let known = listed(materials.keys().map(String::as_str));
             Err(Problem::UnknownMaterial { name: name.clone(), known }.at(place.clone()))
@@ -111,7 +250,7 @@ fn surface_names(groups: &[Group]) -> Vec<String> {
 }
 
 /// `name`, or the first of `name.2`, `name.3`, … that is free.
-fn unique(name: String, taken: &mut BTreeSet<String>) -> String {
+pub(super) fn unique(name: String, taken: &mut BTreeSet<String>) -> String {
     let numbered = (2..).map(|number| format!("{name}.{number}"));
     let free =
         std::iter::once(name.clone()).chain(numbered).find(|name| !taken.contains(name)).unwrap_or(name);
@@ -127,12 +266,13 @@ mod tests {
     fn group(name: Option<&str>, material: Option<&str>) -> Group {
         let place = Place::file(Path::new("a.obj"));
         let material = material.map(|name| MaterialName { name: name.to_owned(), place });
-        Group { name: name.map(str::to_owned), material, polygons: Vec::new() }
+        Group::new(name.map(str::to_owned), material)
     }
 
     fn mesh(groups: Vec<Group>) -> Mesh {
         let materials = groups.iter().filter_map(Group::material_name);
-        Mesh { materials: materials.map(|name| (name.to_owned(), Material::default())).collect(), groups }
+        let materials = materials.map(|name| (name.to_owned(), Material::default())).collect();
+        Mesh { materials, groups, ..Mesh::new(Path::new("a.obj")) }
     }
 
     #[test]
@@ -140,7 +280,7 @@ mod tests {
         let (box_white, box_red) = (group(Some("box"), Some("white")), group(Some("box"), Some("red")));
         let room = vec![group(Some("floor"), Some("white")), box_white, box_red, group(None, Some("red"))];
         let more = vec![group(Some("floor"), None), group(None, None), group(Some("floor.2"), None)];
-        let surfaces = surfaces(vec![mesh(room), mesh(more)], &BTreeMap::new()).unwrap();
+        let surfaces = assemble(vec![mesh(room), mesh(more)], &BTreeMap::new()).unwrap().surfaces;
         let names: Vec<_> = surfaces.iter().map(|surface| surface.name.as_str()).collect();
         assert_eq!(names, ["floor", "box/white", "box/red", "red", "floor.2", "surface", "floor.2.2"]);
     }

@@ -1,28 +1,44 @@
 //! Room 1: a scene is surfaces with materials, in metres, and perhaps a camera.
 //!
-//! [`load`] reads a mesh (`.obj` with its `.mtl`, in metres) or a scene file (`.toml`: meshes, their unit, materials
-//! in place of the meshes' own, a camera, wishes on how to solve). [`cornell_box`] is built in. Surfaces are diffuse
-//! and one-sided. Whatever the door, the same is checked: see [`Problem`]; all tolerances are relative to the size of
-//! a face, so that a scene in millimetres behaves like one in kilometres.
+//! [`load`] reads a mesh (`.obj` with its `.mtl`, `.stl`, `.ply`, View3D's `.vs3`; in metres) or a scene file (`.toml`:
+//! meshes, their unit, materials in place of the meshes' own, a camera, wishes on how to solve). [`load_unlit`] takes
+//! scenes without light as well. [`cornell_box`] is built in. Surfaces are diffuse and one-sided. Whatever the door,
+//! the same is checked: see [`Problem`]; all tolerances are relative to the size of a face, so that a scene in
+//! millimetres behaves like one in kilometres.
+//!
+//! What a file calls a face may be several polygons of the scene: [`Loaded::faces`] tells which. How the faces hang
+//! together is looked at by [`examine()`].
 
 mod camera;
 mod check;
 mod cornell;
 mod cut;
 mod error;
+mod examine;
+mod face;
 mod file;
 mod load;
 mod material;
 mod mesh;
 mod mtl;
 mod obj;
+mod photometric;
+mod ply;
+mod stl;
 mod text;
+mod thermal;
+mod vs3;
 
 pub use camera::Camera;
 pub use cornell::{cornell_box, cornell_box_spectral};
 pub use cut::cut;
-pub use error::{Error, Place, Problem};
-pub use load::{Loaded, SolveOptions, load};
+pub use error::{Error, Place, Problem, Warning};
+pub use examine::{Component, Defect, Finding, Report, examine};
+pub use face::Face;
+pub use load::{Loaded, SolveOptions, load, load_in, load_unlit};
+pub use photometric::Units;
+pub use thermal::{Thermal, ThermalScene, load_thermal};
+pub use vs3::Control;
 
 use crate::polygon::Polygon;
 use fredholm::value::Value;

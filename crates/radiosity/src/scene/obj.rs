@@ -5,7 +5,7 @@
 //! one-sided: its front is where its corners run counter-clockwise.
 
 use super::cut::cut;
-use super::error::{Error, Place, Problem};
+use super::error::{Error, Place, Problem, Spot};
 use super::mesh::{Group, MaterialName, Mesh};
 use super::mtl;
 use super::text::{self, Statement};
@@ -19,8 +19,8 @@ pub(super) fn read(file: &Path, metres: f64, named_at: &Place) -> Result<Mesh, E
 }
 
 fn parse(file: &Path, text: &str, metres: f64) -> Result<Mesh, Error> {
-    let (vertices, current, known, mesh) = Default::default();
-    let mut reader = Reader { file, metres, vertices, current, known, mesh };
+    let (vertices, current, known) = Default::default();
+    let mut reader = Reader { file, metres, vertices, current, known, mesh: Mesh::new(file) };
     text::statements(text).try_for_each(|statement| reader.take(&statement))?;
     Ok(reader.mesh)
 }
@@ -54,7 +54,7 @@ impl Reader<'_> {
                 let corners = rest.split_whitespace().map(|word| corner(word, &self.vertices));
                 let corners = corners.collect::<Result<Vec<_>, _>>().map_err(at)?;
                 let polygons = cut(&corners).map_err(at)?;
-                self.group().polygons.extend(polygons);
+                self.group().push(polygons, Spot::Line(statement.line));
             }
             ("o" | "g", rest) => {
                 let name = (!rest.is_empty()).then(|| rest.to_owned());
@@ -77,7 +77,7 @@ impl Reader<'_> {
         let index = *group.get_or_insert_with(|| {
             let key = (name.clone(), material.as_ref().map(|material| material.name.clone()));
             *self.known.entry(key).or_insert_with(|| {
-                groups.push(Group { name: name.clone(), material: material.clone(), polygons: Vec::new() });
+                groups.push(Group::new(name.clone(), material.clone()));
                 groups.len() - 1
             })
         });
@@ -99,9 +99,8 @@ impl Reader<'_> {
 /// `x y z`; a weight or a colour behind them is passed over.
 fn vertex(rest: &str) -> Result<DVec3, Problem> {
     let mut words = rest.split_whitespace();
-    let mut coordinate = || match words.next().map(text::number) {
-        Some(Ok(value)) if !value.is_finite() => Err(Problem::NotFinite(value)),
-        Some(number) => number,
+    let mut coordinate = || match words.next().map(text::coordinate) {
+        Some(coordinate) => coordinate,
         None => Err(Problem::Malformed(format!(
             "`v {rest}` is not a vertex; expected three coordinates: `v 0 1.5 2`"
         ))),

@@ -6,8 +6,16 @@ use std::path::Path;
 
 /// The text of a file; `named_at` is where its name stands, to be shown when it cannot be read.
 pub(super) fn read(file: &Path, named_at: &Place) -> Result<String, Error> {
-    let bytes = std::fs::read(file)
-        .map_err(|reason| Problem::Unreadable { file: file.to_owned(), reason }.at(named_at.clone()))?;
+    decode(file, bytes(file, named_at)?)
+}
+
+/// The bytes of a file that may not be text.
+pub(super) fn bytes(file: &Path, named_at: &Place) -> Result<Vec<u8>, Error> {
+    std::fs::read(file)
+        .map_err(|reason| Problem::Unreadable { file: file.to_owned(), reason }.at(named_at.clone()))
+}
+
+pub(super) fn decode(file: &Path, bytes: Vec<u8>) -> Result<String, Error> {
     match String::from_utf8(bytes) {
         Ok(text) => Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text)),
         Err(error) => {
@@ -16,6 +24,11 @@ pub(super) fn read(file: &Path, named_at: &Place) -> Result<String, Error> {
                 .at(Place::line(file, 1 + valid.iter().filter(|&&byte| byte == b'\n').count())))
         }
     }
+}
+
+/// The name of a file without folder and kind.
+pub(super) fn stem(file: &Path) -> String {
+    file.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
 }
 
 /// A keyword and what follows it.
@@ -32,6 +45,11 @@ impl Statement<'_> {
         let (keyword, rest) = body.split_once(char::is_whitespace).unwrap_or((body, ""));
         (keyword, rest.trim_start())
     }
+}
+
+/// The lines of a text without comments and continuations, each a statement.
+pub(super) fn lines(text: &str) -> impl Iterator<Item = Statement<'_>> {
+    text.lines().zip(1..).map(|(body, line)| Statement { line, body: Cow::Borrowed(body) })
 }
 
 /// The statements of an OBJ or MTL text, without comments; a `\` at the end of a line continues it.
@@ -59,6 +77,15 @@ fn without_comment(line: &str) -> &str {
 pub(super) fn number(word: &str) -> Result<f64, Problem> {
     word.parse()
         .map_err(|_| Problem::Malformed(format!("`{word}` is not a number; expected one like 2.5 or 1e-3")))
+}
+
+/// A coordinate: a number that is finite.
+pub(super) fn coordinate(word: &str) -> Result<f64, Problem> {
+    number(word).and_then(finite)
+}
+
+pub(super) fn finite(value: f64) -> Result<f64, Problem> {
+    if value.is_finite() { Ok(value) } else { Err(Problem::NotFinite(value)) }
 }
 
 #[cfg(test)]

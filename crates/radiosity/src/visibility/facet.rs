@@ -94,6 +94,11 @@ impl Facet {
         (apart && self.encloses(s, (s - t) * above.signum())).then(|| above / (above - below))
     }
 
+    /// Whether it cuts every segment between a vertex of a and one of b.
+    pub(super) fn separates(&self, a: &Self, b: &Self) -> bool {
+        a.vertices().iter().all(|&s| b.vertices().iter().all(|&t| self.cut(s, t).is_some()))
+    }
+
     /// Whether the line through s along `up` passes all edges on the inner side.
     ///
     /// The signed volume up·(a × b) changes its sign exactly when a and b change places, so a line between two

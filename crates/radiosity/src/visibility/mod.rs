@@ -7,9 +7,11 @@
 //! A point *on* a polygon (nearer to its plane than 1e-9 of the scene's extent) is never hidden by it, and a
 //! segment in its plane never cut. Edges belong to polygons, so no light leaks where two of them meet.
 
+pub(crate) mod blockers;
 mod build;
 mod bvh;
 mod count;
+mod end;
 mod facet;
 mod packet;
 mod ray;
@@ -20,10 +22,11 @@ pub use count::RayCount;
 
 use crate::polygon::Polygon;
 use bvh::Bvh;
+pub(crate) use end::End;
 use facet::{Facet, Frame};
 use glam::DVec3;
 use ray::{Blocker, Nearest, Ray};
-use shaft::Shaft;
+use shaft::{Between, Shaft};
 
 /// May s and t see each other?
 #[derive(Clone, Debug)]
@@ -118,6 +121,25 @@ impl Visibility {
         query.clear
     }
 
+    /// A polygon of the scene, made ready for [`between`](Self::between).
+    pub(crate) fn end(&self, polygon: &Polygon) -> End {
+        End::new(Facet::new(polygon, &self.frame))
+    }
+
+    /// The polygons that are not proved to miss all segments from a to b, into `found`.
+    pub(crate) fn between(&self, a: &End, b: &End, found: &mut Vec<u32>) {
+        found.clear();
+        if self.occluders.nodes.first().is_some_and(|root| a.may_meet(b, root)) {
+            let shaft = Shaft::new(&self.facets, &a.facet, &b.facet);
+            self.occluders.walk(&mut Between { shaft, found });
+        }
+    }
+
+    /// [`certainly_blocks`](Self::certainly_blocks) for polygons that are made ready.
+    pub(crate) fn blocks(&self, id: u32, a: &End, b: &End) -> bool {
+        self.facets[id as usize].separates(&a.facet, &b.facet)
+    }
+
     /// Whether it is proved that the one polygon `id` cuts every segment from a to b; false means "not known".
     ///
     /// It is, when it cuts each segment between a vertex a_i and a vertex b_j. For then its plane has a on one side, at
@@ -125,9 +147,7 @@ impl Visibility {
     /// through the plane at a weighted mean of the points x_ij where the vertices' segments do, with the weights
     /// α_i β_j (g_i + h_j) ≥ 0. The x_ij are in the polygon, it is convex, so their mean is in it.
     pub fn certainly_blocks(&self, id: u32, a: &Polygon, b: &Polygon) -> bool {
-        let facet = &self.facets[id as usize];
         let unit = |p: &Polygon| Facet::new(p, &self.frame);
-        let (a, b) = (unit(a), unit(b));
-        a.vertices().iter().all(|&s| b.vertices().iter().all(|&t| facet.cut(s, t).is_some()))
+        self.facets[id as usize].separates(&unit(a), &unit(b))
     }
 }

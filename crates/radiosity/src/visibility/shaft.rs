@@ -166,9 +166,10 @@ fn furthest(points: &[DVec3], axis: DVec3) -> DVec3 {
     points.iter().fold(points[0], further)
 }
 
-impl Query for Shaft<'_> {
+impl Shaft<'_> {
+    /// A bit for each box that reaches into the hull.
     #[inline(always)]
-    fn select(&self, node: &Node) -> u32 {
+    fn reached(&self, node: &Node) -> u32 {
         let mut inside = f32x8::ZERO.simd_eq(f32x8::ZERO);
         for k in 0..3 {
             let (low, high) = (-raised(-self.low[k], 1.0), raised(self.high[k], 1.0));
@@ -185,11 +186,40 @@ impl Query for Shaft<'_> {
         }
         inside.to_bitmask()
     }
+}
+
+impl Query for Shaft<'_> {
+    #[inline(always)]
+    fn select(&self, node: &Node) -> u32 {
+        self.reached(node)
+    }
 
     #[inline(always)]
     fn visit(&mut self, packet: &Packet) -> ControlFlow<()> {
         self.clear = packet.distinct().all(|k| self.misses(&self.facets[k as usize]));
         if self.clear { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    }
+}
+
+/// The facets that are not proved to miss the hull.
+pub(super) struct Between<'a> {
+    pub(super) shaft: Shaft<'a>,
+    pub(super) found: &'a mut Vec<u32>,
+}
+
+impl Query for Between<'_> {
+    #[inline(always)]
+    fn select(&self, node: &Node) -> u32 {
+        self.shaft.reached(node)
+    }
+
+    fn visit(&mut self, packet: &Packet) -> ControlFlow<()> {
+        for k in packet.distinct() {
+            if !self.found.contains(&k) && !self.shaft.misses(&self.shaft.facets[k as usize]) {
+                self.found.push(k);
+            }
+        }
+        ControlFlow::Continue(())
     }
 }
 

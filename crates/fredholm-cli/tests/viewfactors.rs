@@ -1,0 +1,291 @@
+//! `fredholm viewfactors` from mesh to files, on scenes whose factors are known.
+
+#![allow(clippy::unwrap_used, reason = "in a test a panic is the message, in its helpers too")]
+
+mod run;
+
+use run::{Case, folder, fredholm, json, names, refuse, text};
+use serde_json::Value;
+use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Unit squares opposite each other, a unit apart; and with an edge in common, at right angles.
+const OPPOSITE: f64 = 0.199824895698;
+const ADJACENT: f64 = 0.200043776075;
+
+/// What scenes are asked in which faces hide one another in part.
+const HIDDEN: &str = "--tolerance 1e-4";
+
+/// The corners of the six faces of a box, counter-clockwise seen from within: x, y, z low and high.
+const WALLS: [[usize; 4]; 6] =
+    [[0, 2, 6, 4], [1, 5, 7, 3], [0, 4, 5, 1], [2, 3, 7, 6], [0, 1, 3, 2], [4, 6, 7, 5]];
+
+/// Appends a box [low, high]³, its fronts within or without, as a group.
+fn add_box(obj: &mut String, group: &str, low: f64, high: f64, inward: bool) {
+    let first = obj.matches("v ").count() + 1;
+    for k in 0..8 {
+        let at = |bit: usize| if k & bit == 0 { low } else { high };
+        writeln!(obj, "v {} {} {}", at(1), at(2), at(4)).unwrap();
+    }
+    writeln!(obj, "g {group}").unwrap();
+    for wall in WALLS {
+        let mut corners = wall.map(|corner| (first + corner).to_string());
+        if !inward {
+            corners.reverse();
+        }
+        writeln!(obj, "f {}", corners.join(" ")).unwrap();
+    }
+}
+
+/// A folder with the scenes.
+fn scenes(name: &str) -> PathBuf {
+    let folder = folder(name);
+    let (mut cube, mut outward, mut nested) = (String::new(), String::new(), String::new());
+    add_box(&mut cube, "cube", 0.0, 1.0, true);
+    add_box(&mut outward, "cube", 0.0, 1.0, false);
+    add_box(&mut nested, "room", 0.0, 1.0, true);
+    add_box(&mut nested, "obstacle", 0.3, 0.7, false);
+    let open = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n\
+        g floor\nf 1 2 3 4\ng ceiling\nf 8 7 6 5\n";
+    let far = open.replace(" 1\nv", " 10000\nv").replace(" 1\ng", " 10000\ng");
+    let files = [
+        ("far.obj", &*far),
+        ("cube.obj", &*cube),
+        ("outward.obj", &outward),
+        ("nested.obj", &nested),
+        ("open.obj", open),
+    ];
+    for (file, text) in files {
+        fs::write(folder.join(file), text).unwrap();
+    }
+    folder
+}
+
+fn report(folder: &Path, words: &str) -> Value {
+    let output = fredholm(folder, &format!("viewfactors {words} --json -"));
+    assert!(output.status.success(), "{words}: {}", text(&output.stderr));
+    json(&output.stdout)
+}
+
+fn matrix(report: &Value, key: &str) -> Vec<Vec<f64>> {
+    serde_json::from_value(report[key].clone()).unwrap()
+}
+
+/// Whether two faces of a box are opposite: 0 and 1, 2 and 3, 4 and 5.
+fn cube_factor(i: usize, j: usize) -> f64 {
+    match i ^ j {
+        0 => 0.0,
+        1 => OPPOSITE,
+        _ => ADJACENT,
+    }
+}
+
+#[test]
+fn the_cube_has_its_factors_within_their_errors() {
+    let folder = scenes("viewfactors_cube");
+    for (tolerance, keeps) in [("1e-4", 1e-7), ("1e-7", 1e-15)] {
+        let report = report(&folder, &format!("cube.obj --tolerance {tolerance}"));
+        let (factors, errors) = (matrix(&report, "F"), matrix(&report, "error"));
+        for i in 0..6 {
+            for j in 0..6 {
+                // The closed forms are given to twelve digits.
+                let missed = (factors[i][j] - cube_factor(i, j)).abs();
+                assert!(missed <= errors[i][j] + 1e-12, "{i} {j}: {missed:e} of {:e}", errors[i][j]);
+                assert!(errors[i][j] <= tolerance.parse().unwrap() && (errors[i][j] > 0.0) == (i != j));
+            }
+        }
+        let number = |key: &str| report[key].as_f64().unwrap();
+        assert!(number("closure_defect") <= tolerance.parse().unwrap());
+        assert!(number("reciprocity_defect") <= keeps, "{}", report["reciprocity_defect"]);
+        assert!(number("largest_row_error") <= tolerance.parse().unwrap());
+        assert_eq!((report["closed"].as_bool(), report["closure_rows"].as_u64()), (Some(true), Some(6)));
+        assert_eq!(report["areas"], json(b"[1.0, 1.0, 1.0, 1.0, 1.0, 1.0]"));
+        assert_eq!(report["names"][5], "cube#6");
+        for key in ["rays", "seconds", "peak_memory_bytes"] {
+            assert!(report[key].is_number(), "{key}");
+        }
+    }
+}
+
+#[test]
+fn a_box_in_a_box_has_its_factors_by_groups() {
+    let folder = scenes("viewfactors_nested");
+    let report = report(&folder, &format!("nested.obj --groups {HIDDEN}"));
+    assert_eq!(report["names"], json(b"[\"room\", \"obstacle\"]"));
+    assert_eq!((report["faces"].as_u64(), report["groups"].as_u64()), (Some(12), Some(2)));
+    let (factors, errors) = (matrix(&report, "F"), matrix(&report, "error"));
+    // All that leaves the obstacle arrives at the room, and by reciprocity 0.96 m² / 6 m² comes from there.
+    for (i, j, expected) in [(0, 0, 0.84), (0, 1, 0.16), (1, 0, 1.0), (1, 1, 0.0)] {
+        assert!((factors[i][j] - expected).abs() <= errors[i][j], "{i} {j}: {}", factors[i][j]);
+    }
+    let areas: Vec<f64> = serde_json::from_value(report["areas"].clone()).unwrap();
+    assert!((areas[0] - 6.0).abs() < 1e-12 && (areas[1] - 0.96).abs() < 1e-12);
+}
+
+#[test]
+fn an_open_scene_is_told_and_not_closed() {
+    let folder = scenes("viewfactors_open");
+    let report = report(&folder, "open.obj");
+    assert_eq!(
+        (report["closed"].as_bool(), report["names"].clone()),
+        (Some(false), json(b"[\"floor\", \"ceiling\"]"))
+    );
+    let factors = matrix(&report, "F");
+    assert!(
+        (factors[0][1] - OPPOSITE).abs() < 1e-4 && factors[0][0] == 0.0 && factors[0][1] == factors[1][0]
+    );
+    assert!((report["closure_defect"].as_f64().unwrap() - (1.0 - OPPOSITE)).abs() < 1e-4);
+    let table = text(&fredholm(&folder, "viewfactors open.obj").stdout);
+    assert!(table.contains("open: ") && table.contains("% of the sight lines leave the scene"), "{table}");
+}
+
+#[test]
+fn the_table_has_the_matrix_of_few_faces_and_what_is_wrong() {
+    let folder = scenes("viewfactors_table");
+    let output = fredholm(&folder, "viewfactors cube.obj");
+    let table = text(&output.stdout);
+    for part in
+        ["cube.obj: view factors", "faces         6", "15 in full sight", "1.0e-4 allowed", "closed: ", "sum"]
+    {
+        assert!(table.contains(part), "no `{part}` in: {table}");
+    }
+    let row = table.lines().find(|line| line.trim_start().starts_with("cube#1 ")).unwrap();
+    let numbers: Vec<f64> = row.split_whitespace().skip(1).map(|word| word.parse().unwrap()).collect();
+    assert!(
+        numbers.len() == 7 && (numbers[1] - OPPOSITE).abs() < 1e-4 && (numbers[6] - 1.0).abs() < 1e-4,
+        "{row}"
+    );
+    assert_eq!((text(&output.stderr), names(&folder).len()), (String::new(), 5));
+    let outward = text(&fredholm(&folder, "viewfactors outward.obj").stdout);
+    assert!(outward.contains("NONE face each other"), "{outward}");
+}
+
+#[test]
+fn enforced_factors_add_up_and_say_by_how_much_they_were_changed() {
+    let folder = scenes("viewfactors_enforce");
+    for words in ["cube.obj", "nested.obj", "nested.obj --groups"] {
+        let before = report(&folder, &format!("{words} {HIDDEN}"));
+        assert!(
+            before["correction"].is_null() && before["closure_defect"].as_f64() > Some(1e-10),
+            "never silently"
+        );
+        let output = fredholm(&folder, &format!("viewfactors {words} {HIDDEN} --enforce --json -"));
+        let (report, table) = (json(&output.stdout), text(&output.stderr));
+        assert!(report["closure_defect"].as_f64().unwrap() <= 1e-12, "{}", report["closure_defect"]);
+        assert!(report["reciprocity_defect"].as_f64().unwrap() <= 1e-15);
+        let (old, new, errors) = (matrix(&before, "F"), matrix(&report, "F"), matrix(&report, "error"));
+        let largest = report["correction"]["largest"].as_f64().unwrap();
+        for (i, row) in new.iter().enumerate() {
+            assert!((row.iter().sum::<f64>() - 1.0).abs() <= 1e-12);
+            for (j, factor) in row.iter().enumerate() {
+                let change = (factor - old[i][j]).abs();
+                assert!(*factor >= 0.0 && change <= errors[i][j] + 1e-15, "{i} {j}");
+                assert!(words.ends_with("--groups") || change <= largest + 1e-7, "{i} {j}");
+            }
+        }
+        assert!(table.contains("enforced") && table.contains("of the errors"), "{table}");
+    }
+}
+
+#[test]
+fn every_format_has_the_same_factors() {
+    let folder = scenes("viewfactors_formats");
+    let words =
+        "nested.obj --tolerance 1e-2 --groups -o a.csv -o a.mtx -o a.npz -o a.out -o b.vf --json a.json";
+    let output = fredholm(&folder, &format!("viewfactors {words}"));
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("written       a.csv, a.mtx, a.npz, a.out, b.vf, a.json"));
+    let read = |name: &str| fs::read(folder.join(name)).unwrap();
+    let factors = matrix(&json(&read("a.json")), "F");
+    let numbers = |line: &str| -> Vec<f64> {
+        line.split([',', ' ']).filter(|word| !word.is_empty()).map(|word| word.parse().unwrap()).collect()
+    };
+    let csv = text(&read("a.csv"));
+    assert!(csv.starts_with("room,obstacle\n"));
+    // The reader of JSON is off by a last digit now and then.
+    let alike =
+        |row: &[f64], other: &[f64]| row.iter().zip(other).all(|(a, b)| (a - b).abs() <= 2.0 * f64::EPSILON);
+    assert!(csv.lines().skip(1).map(numbers).zip(&factors).all(|(row, other)| alike(&row, other)), "{csv}");
+    let market = text(&read("a.mtx"));
+    let entries: Vec<Vec<f64>> = market.lines().filter(|line| !line.starts_with('%')).map(numbers).collect();
+    assert_eq!(entries[0], [2.0, 2.0, 3.0], "the obstacle does not see itself");
+    assert!(alike(&entries[2], &[1.0, 2.0, factors[0][1]]), "{market}");
+    let view3d = text(&read("a.out"));
+    assert!(
+        view3d.starts_with("fredholm ") && view3d.lines().next().unwrap().trim_end().ends_with(" 0 1 0 2")
+    );
+    assert!((numbers(view3d.lines().nth(2).unwrap())[1] - factors[0][1]).abs() < 1e-8);
+    assert_eq!(view3d.lines().last(), Some("0.500 0.500"), "1 − ρ of what has no material");
+    assert_eq!(read("b.vf"), read("a.out"));
+    // The names stand in NumPy's UTF-32, in the last array of the archive.
+    let archive = read("a.npz");
+    let name: Vec<u8> = "obstacle".bytes().flat_map(|letter| [letter, 0, 0, 0]).collect();
+    assert!(archive.starts_with(b"PK") && archive.windows(name.len()).any(|bytes| bytes == name));
+}
+
+#[test]
+fn the_digits_are_the_same_for_any_number_of_threads() {
+    let folder = scenes("viewfactors_threads");
+    let run = |threads: &str, option: &[&str]| {
+        let words = "viewfactors nested.obj --tolerance 1e-2 --enforce -o a.csv --json a.json".split(' ');
+        let mut command = Command::new(env!("CARGO_BIN_EXE_fredholm"));
+        let output =
+            command.args(words).args(option).env("RAYON_NUM_THREADS", threads).current_dir(&folder).output();
+        // What is corrected may be more than the tolerance.
+        assert!(matches!(output.unwrap().status.code(), Some(0 | 3)));
+        let report = json(&fs::read(folder.join("a.json")).unwrap());
+        (
+            fs::read(folder.join("a.csv")).unwrap(),
+            report["error"].to_string(),
+            report["correction"].to_string(),
+        )
+    };
+    let one = run("1", &[]);
+    assert_eq!(one, run("2", &[]));
+    assert_eq!(one, run("1", &["--threads", "3"]));
+}
+
+#[test]
+fn a_tolerance_that_is_not_met_is_told() {
+    let folder = scenes("viewfactors_not_met");
+    // No error but 0 is stored as less than 1.2e-15 of a face.
+    let output = fredholm(&folder, "viewfactors far.obj --tolerance 1e-15 -o a.csv");
+    assert_eq!(output.status.code(), Some(3));
+    let table = text(&output.stdout);
+    assert!(table.contains("TOLERANCE NOT MET, 1.0e-15") && table.contains("written       a.csv"), "{table}");
+    assert!(folder.join("a.csv").exists());
+}
+
+const BAD: &[Case] = &[
+    ("", 2, &["<MESH>"]),
+    ("missing.obj", 1, &["missing.obj", "cannot read"]),
+    ("mesh.xyz", 1, &["mesh.xyz", "`xyz`"]),
+    ("empty.obj", 1, &["no faces"]),
+    ("flat.obj", 1, &["flat.obj:4", "no area"]),
+    ("open.obj --enforce", 1, &["open.obj", "open", "% of the sight lines", "--enforce"]),
+    ("outward.obj --enforce", 1, &["100.0 % of the sight lines", "fronts inside"]),
+    ("cube.obj --tolerance 0", 2, &["positive finite number"]),
+    ("cube.obj --tolerance nan", 2, &["positive finite number"]),
+    ("cube.obj --tolerance -1", 2, &["positive finite number"]),
+    ("cube.obj --threads 0", 2, &["1 to 1024"]),
+    ("cube.obj -o a.txt", 2, &["a.txt", ".npz or .csv or .mtx or .vf or .out"]),
+    ("cube.obj -o no/such.npz", 1, &["cannot write no/such.npz", "folder no"]),
+    ("cube.obj -o a.npz -o b.csv --json no/such.json", 1, &["cannot write no/such.json"]),
+    ("cube.obj -o a.csv -o a.csv", 1, &["two outputs", "a.csv"]),
+    ("cube.obj -o a.csv --json a.csv", 1, &["two outputs", "a.csv"]),
+    ("cube.obj --json .", 1, &["it is a folder"]),
+];
+
+#[test]
+fn bad_input_is_told_in_one_message() {
+    let folder = scenes("viewfactors_bad");
+    fs::write(folder.join("empty.obj"), "").unwrap();
+    fs::write(folder.join("mesh.xyz"), "0 0 0\n").unwrap();
+    fs::write(folder.join("flat.obj"), "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n").unwrap();
+    let messages = refuse(&folder, BAD, |words| fredholm(&folder, &format!("viewfactors {words}")));
+    for (message, (words, code, _)) in messages.iter().zip(BAD) {
+        assert!(*code == 2 || message.lines().count() == 1, "`{words}`: {message}");
+    }
+}

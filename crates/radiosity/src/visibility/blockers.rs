@@ -1,0 +1,289 @@
+//! What hides, as few convex polygons: the faces of one plane that a mesh cuts a wall into cast one shadow.
+//!
+//! Faces that share an edge and a plane are put together where that makes a convex polygon. Faces that close a body are
+//! known to: from without it, those that are seen from the front hide all that the body hides.
+
+use super::facet::ON_PLANE;
+use crate::polygon::Polygon;
+use glam::DVec3;
+use std::collections::HashMap;
+
+/// The faces of a scene as what hides.
+#[derive(Clone, Debug)]
+pub(crate) struct Blockers {
+    /// Convex, planar, each of them faces or parts of them.
+    pub polygons: Vec<Polygon>,
+    /// The body that each polygon is of, where it is of one.
+    pub body: Vec<Option<u32>>,
+    /// The boxes around the bodies.
+    pub bodies: Vec<[DVec3; 2]>,
+    /// Whether each body is convex, with its fronts outside: then what is seen of it from the front covers no place twice.
+    pub is_convex: Vec<bool>,
+    /// The body of each face.
+    pub body_of_face: Vec<Option<u32>>,
+}
+
+type Edge = (u32, u32);
+
+impl Blockers {
+    /// From the faces of a scene.
+    pub fn new(faces: &[Polygon]) -> Self {
+        let mesh = Mesh::new(faces);
+        let (body_of_face, bodies) = mesh.bodies();
+        let mut blockers = Self {
+            polygons: Vec::new(),
+            body: Vec::new(),
+            is_convex: vec![false; bodies.len()],
+            bodies,
+            body_of_face,
+        };
+        let mut outlines = Vec::new();
+        for plane in mesh.planes() {
+            let body = blockers.body_of_face[plane[0] as usize];
+            let whole = mesh.outline(&plane).map(|outline| mesh.without_straight_corners(&outline));
+            let parts =
+                match whole.filter(|outline| mesh.is_convex(outline, faces[plane[0] as usize].normal())) {
+                    Some(outline) => fan(&outline),
+                    None => plane.iter().map(|&face| mesh.corners[face as usize].clone()).collect(),
+                };
+            blockers.body.resize(blockers.body.len() + parts.len(), body);
+            outlines.extend(parts);
+        }
+        let at = |v: u32| mesh.vertices[v as usize];
+        blockers.polygons = outlines
+            .iter()
+            .map(|outline| match *outline.as_slice() {
+                [a, b, c, d] => Polygon::quadrilateral(at(a), at(b), at(c), at(d)),
+                _ => Polygon::triangle(at(outline[0]), at(outline[1]), at(outline[2])),
+            })
+            .collect();
+        blockers.find_convex(mesh.on_plane);
+        blockers
+    }
+
+    fn find_convex(&mut self, on_plane: f64) {
+        let mut of_body = vec![Vec::new(); self.bodies.len()];
+        for (polygon, body) in self.polygons.iter().zip(&self.body) {
+            if let Some(body) = body {
+                of_body[*body as usize].push(polygon);
+            }
+        }
+        for (polygons, is_convex) in of_body.iter().zip(&mut self.is_convex) {
+            let behind = |plane: &Polygon| {
+                polygons.iter().flat_map(|p| p.vertices()).all(|v| plane.height_of(*v) <= on_plane)
+            };
+            *is_convex = polygons.len() <= MOST_EXAMINED && polygons.iter().all(|plane| behind(plane));
+        }
+    }
+}
+
+/// Quadrilaterals and a triangle that a convex outline is made of.
+fn fan(outline: &[u32]) -> Vec<Vec<u32>> {
+    let ends = (1..outline.len() - 1).step_by(2);
+    ends.map(|k| {
+        let mut part = vec![outline[0], outline[k], outline[k + 1]];
+        part.extend(outline.get(k + 2));
+        part
+    })
+    .collect()
+}
+
+fn cyclic(outline: &[u32]) -> impl Iterator<Item = Edge> {
+    (0..outline.len()).map(|k| (outline[k], outline[(k + 1) % outline.len()]))
+}
+
+/// Every face of a body against every vertex takes time; of one with more faces than that it is not known.
+const MOST_EXAMINED: usize = 2000;
+
+/// Faces that know which edges they share.
+struct Mesh<'a> {
+    faces: &'a [Polygon],
+    vertices: Vec<DVec3>,
+    corners: Vec<Vec<u32>>,
+    owners: HashMap<Edge, Vec<u32>>,
+    /// How far from a plane counts as on it, in metres.
+    on_plane: f64,
+}
+
+impl<'a> Mesh<'a> {
+    fn new(faces: &'a [Polygon]) -> Self {
+        let mut mesh =
+            Self { faces, vertices: Vec::new(), corners: Vec::new(), owners: HashMap::new(), on_plane: 0.0 };
+        let mut known = HashMap::new();
+        for (face, k) in faces.iter().zip(0..) {
+            let number = |v: &DVec3| {
+                // + 0 makes −0 the same place as 0.
+                let key = v.to_array().map(|x| (x + 0.0).to_bits());
+                *known.entry(key).or_insert_with(|| {
+                    mesh.vertices.push(*v);
+                    (mesh.vertices.len() - 1) as u32
+                })
+            };
+            let corners: Vec<u32> = face.vertices().iter().map(number).collect();
+            cyclic(&corners).for_each(|edge| mesh.owners.entry(edge).or_default().push(k));
+            mesh.corners.push(corners);
+        }
+        let [low, high] = bounds(mesh.vertices.iter().copied());
+        mesh.on_plane = ON_PLANE * (high - low).max_element();
+        mesh
+    }
+
+    /// The one face that has the edge in the other direction, if no other has it in any.
+    fn across(&self, (u, v): Edge) -> Option<u32> {
+        match (self.owners.get(&(v, u))?.as_slice(), self.owners.get(&(u, v))?.as_slice()) {
+            (&[other], [_]) => Some(other),
+            _ => None,
+        }
+    }
+
+    /// The faces that are connected, `joined` over edges: the number of each face's component, and how many there are.
+    fn components(&self, joined: impl Fn(u32, u32) -> bool) -> (Vec<u32>, u32) {
+        const NONE: u32 = u32::MAX;
+        let mut component = vec![NONE; self.faces.len()];
+        let mut count = 0;
+        for seed in 0..self.faces.len() as u32 {
+            if component[seed as usize] != NONE {
+                continue;
+            }
+            component[seed as usize] = count;
+            let mut waiting = vec![seed];
+            while let Some(face) = waiting.pop() {
+                for other in cyclic(&self.corners[face as usize]).filter_map(|edge| self.across(edge)) {
+                    if component[other as usize] == NONE && joined(seed, other) {
+                        component[other as usize] = count;
+                        waiting.push(other);
+                    }
+                }
+            }
+            count += 1;
+        }
+        (component, count)
+    }
+
+    /// Connected faces of one plane with one front.
+    fn planes(&self) -> Vec<Vec<u32>> {
+        let in_plane = |seed: u32, other: u32| {
+            let (plane, face) = (&self.faces[seed as usize], &self.faces[other as usize]);
+            plane.normal().dot(face.normal()) > 0.0
+                && face.vertices().iter().all(|v| plane.height_of(*v).abs() <= self.on_plane)
+        };
+        let (component, count) = self.components(in_plane);
+        let mut planes = vec![Vec::new(); count as usize];
+        component.iter().zip(0..).for_each(|(c, face)| planes[*c as usize].push(face));
+        planes
+    }
+
+    /// The body that each face is of, if it is of a closed one, and the boxes around the bodies.
+    fn bodies(&self) -> (Vec<Option<u32>>, Vec<[DVec3; 2]>) {
+        let (component, count) = self.components(|_, _| true);
+        let mut closed = vec![true; count as usize];
+        for (corners, c) in self.corners.iter().zip(&component) {
+            closed[*c as usize] &= cyclic(corners).all(|edge| self.across(edge).is_some());
+        }
+        let mut boxes = vec![bounds(std::iter::empty()); count as usize];
+        for (face, c) in self.faces.iter().zip(&component) {
+            let [low, high] = &mut boxes[*c as usize];
+            face.vertices().iter().for_each(|v| (*low, *high) = (low.min(*v), high.max(*v)));
+        }
+        (component.iter().map(|&c| closed[c as usize].then_some(c)).collect(), boxes)
+    }
+
+    /// The outline of faces of a plane, if it is one without holes that touches itself nowhere.
+    fn outline(&self, plane: &[u32]) -> Option<Vec<u32>> {
+        let mine: std::collections::HashSet<u32> = plane.iter().copied().collect();
+        let mut next = HashMap::new();
+        for edge in plane.iter().flat_map(|&face| cyclic(&self.corners[face as usize])) {
+            let inner = self.across(edge).is_some_and(|other| mine.contains(&other));
+            if !inner && next.insert(edge.0, edge.1).is_some() {
+                return None;
+            }
+        }
+        let start =
+            plane.iter().flat_map(|&face| &self.corners[face as usize]).find(|v| next.contains_key(v))?;
+        let mut outline = vec![*start];
+        let mut at = *next.get(start)?;
+        while at != *start {
+            outline.push(at);
+            at = *next.get(&at)?;
+        }
+        (outline.len() == next.len()).then_some(outline)
+    }
+
+    fn without_straight_corners(&self, outline: &[u32]) -> Vec<u32> {
+        let n = outline.len();
+        let at = |k: usize| self.vertices[outline[k % n] as usize];
+        let turns = |k: usize| {
+            let (before, after) = (at(k) - at(k + n - 1), at(k + 1) - at(k));
+            before.cross(after).length() > STRAIGHT * before.length() * after.length()
+                || before.dot(after) < 0.0
+        };
+        (0..n).filter(|&k| turns(k)).map(|k| outline[k]).collect()
+    }
+
+    fn is_convex(&self, outline: &[u32], normal: DVec3) -> bool {
+        let n = outline.len();
+        let at = |k: usize| self.vertices[outline[k % n] as usize];
+        let left = |k: usize| (at(k + 1) - at(k)).cross(at(k + 2) - at(k + 1)).dot(normal) > 0.0;
+        // Turned once about, not twice: every corner is left of the first edge.
+        let once = |k: usize| (at(1) - at(0)).cross(at(k) - at(0)).dot(normal) > 0.0;
+        n >= 3 && (0..n).all(left) && (2..n).all(once)
+    }
+}
+
+/// The sine of a turn that is none: far above the rounding of coordinates, far below any corner.
+const STRAIGHT: f64 = 1e-9;
+
+fn bounds(points: impl Iterator<Item = DVec3>) -> [DVec3; 2] {
+    points.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The six faces of the box, n × n squares each, each square two triangles.
+    fn cube(low: f64, high: f64, n: usize) -> Vec<Polygon> {
+        let at = |k: usize| low + (high - low) * k as f64 / n as f64;
+        let mut faces = Vec::new();
+        for (axis, far) in (0..3).flat_map(|axis| [(axis, false), (axis, true)]) {
+            let point = |i: usize, j: usize| {
+                let mut p = [if far { high } else { low }; 3];
+                (p[(axis + 1) % 3], p[(axis + 2) % 3]) = (at(i), at(j));
+                DVec3::from_array(p)
+            };
+            for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+                let mut c = [point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)];
+                if !far {
+                    c.reverse();
+                }
+                faces.extend([Polygon::triangle(c[0], c[1], c[2]), Polygon::triangle(c[0], c[2], c[3])]);
+            }
+        }
+        faces
+    }
+
+    #[test]
+    fn the_faces_of_a_cut_cube_are_six_squares() {
+        for n in [1, 4] {
+            let blockers = Blockers::new(&cube(0.3, 0.7, n));
+            assert_eq!(blockers.polygons.len(), 6);
+            for polygon in &blockers.polygons {
+                assert!((polygon.area() - 0.16).abs() < 1e-15 && polygon.vertices().len() == 4);
+                assert!((polygon.centroid() - DVec3::splat(0.5)).dot(polygon.normal()) > 0.1);
+            }
+            assert!(blockers.body.iter().all(|body| body.is_some()) && blockers.is_convex == [true]);
+        }
+    }
+
+    #[test]
+    fn what_is_not_convex_or_not_closed_stays_as_it_is() {
+        let mut faces = cube(0.0, 1.0, 2);
+        faces.truncate(8 * 5 - 1);
+        let blockers = Blockers::new(&faces);
+        // Four whole sides, and one that lacks a triangle.
+        assert_eq!(blockers.polygons.len(), 4 + 7);
+        assert!(blockers.body.iter().all(Option::is_none));
+        let total: f64 = blockers.polygons.iter().map(Polygon::area).sum();
+        assert!((total - 4.875).abs() < 1e-14);
+    }
+}
