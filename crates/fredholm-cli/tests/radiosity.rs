@@ -63,8 +63,11 @@ fn the_furnace_has_its_answer_by_every_method_and_solver() {
         assert!(output.status.success(), "{words}: {}", text(&output.stderr));
         json(&output.stdout)
     };
-    for solver in ["gauss-seidel", "southwell", "jacobi", "successive", "gmres", "direct"] {
-        let report = run(&format!("--solver {solver}"));
+    let solvers = ["gauss-seidel", "southwell", "jacobi", "successive", "gmres", "direct"];
+    let words = solvers.map(|solver| format!("--solver {solver}")).into_iter();
+    let spaces = ["p1 --solver gmres", "p2 --method collocation --solver direct"];
+    for solver in words.chain(spaces.map(|space| format!("--space {space}"))) {
+        let report = run(&solver);
         assert!(report["closure_defect"].is_null() == report["closure_rows"].is_null());
         for surface in report["surfaces"].as_array().unwrap() {
             for (channel, expected) in [2.0, 4.0 / 3.0, 4.0].into_iter().enumerate() {

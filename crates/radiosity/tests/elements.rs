@@ -470,6 +470,39 @@ fn assert_orders(walls: &[Polygon], cases: [(Degree, [f64; 2], f64); 3]) {
     }
 }
 
+/// Twice the order everywhere for the iterated solution, where the kernel is smooth: between plates that do not touch. The
+/// nodes of collocation are Gauss's on squares, exact for degree 2k + 1; on triangles for 2k, and an order may be missing.
+#[test]
+fn iterated_solutions_have_twice_the_order_where_nothing_touches() {
+    let square =
+        [parallelogram(DVec3::ZERO, DVec3::X, DVec3::Y), parallelogram(p(0.2, 0.1, 1.0), DVec3::Y, DVec3::X)];
+    let triangle = square.each_ref().map(|square| {
+        let v = square.vertices();
+        Polygon::triangle(v[0], v[1], v[3])
+    });
+    for plates in [square, triangle] {
+        let triangles = plates[0].vertices().len() == 3;
+        // A triangle is cut by its longest side, √2 here.
+        let unit = plates[0].diameter().min(if triangles { 2.0 } else { 1.0 });
+        for (degree, cuts) in
+            [(Degree::Constant, [4.0, 8.0]), (Degree::Linear, [4.0, 8.0]), (Degree::Quadratic, [2.0, 4.0])]
+        {
+            let sizes = cuts.map(|cuts| unit / cuts);
+            for method in [Method::Collocation, Method::Galerkin] {
+                let [[_, mean_square, iterated, iterated_square, _], _] =
+                    orders(&plates, sizes, degree, method, 1e-10);
+                let k = degree.order() as f64;
+                let least =
+                    if triangles && method == Method::Collocation { 2.0 * k + 1.0 } else { 2.0 * k + 2.0 };
+                let what = format!("{method:?} {degree:?}, triangles: {triangles}");
+                assert!((mean_square - (k + 1.0)).abs() < 0.25, "{what}, mean square: {mean_square}");
+                assert!(iterated > least - 0.25, "{what}, iterated, maximum: {iterated}");
+                assert!(iterated_square > least - 0.25, "{what}, iterated, mean square: {iterated_square}");
+            }
+        }
+    }
+}
+
 #[test]
 fn rates_on_a_cube() {
     let cases = [
@@ -522,6 +555,46 @@ fn a_white_furnace_is_one_in_every_space() {
                 let Closure::Closed { defect, rows } = found.closure else { panic!("a closed room") };
                 assert!(defect < 1e-4 && rows == patches.len(), "{degree:?} {method:?}: {defect:e}");
             }
+        }
+    }
+}
+
+/// A room with a block in it, where much is partly hidden: rows add up to 1, blocks have their reciprocity, entries asked for
+/// alone are those of the row, and means over patches are those of P0 but for the error of both.
+#[test]
+fn what_is_partly_hidden_has_rows_of_one_and_the_light_of_constants() {
+    let mut groups: Vec<Vec<Polygon>> = walls(DVec3::ZERO, p(4.0, 3.3, 2.3), false).map(|w| vec![w]).to_vec();
+    groups.push(walls(p(1.0, 0.7, 0.0), p(2.0, 1.9, 1.1), true)[1..].to_vec());
+    let mut scene = scene(groups, 0.6);
+    scene.surfaces[1].emission = 10.0;
+    let (patches, visibility) = (Patches::new(&scene, 0.8).unwrap(), visibility(&scene));
+    let options = solve::Options { accuracy: 3e-3, ..solve::Options::default() };
+    let constant = solve::solve(&patches, &visibility, &options, &mut solve::Unobserved).unwrap();
+    let space = Space::new(&patches.polygons, Degree::Linear);
+    for method in [solve::Method::Collocation, solve::Method::Galerkin] {
+        let options = solve::Options { method, ..options };
+        let linear =
+            solve::solve_elements(&space, &patches, &visibility, &options, &mut solve::Unobserved).unwrap();
+        let Closure::Closed { defect, .. } = linear.closure else { panic!("a closed room") };
+        assert!(defect < 6.0 * options.accuracy, "{method:?}: {defect:e}");
+        let (mut error, mut norm) = (0.0, 0.0);
+        for ((b, mean), area) in
+            constant.radiosity.iter().zip(space.means(&linear.radiosity)).zip(&patches.areas)
+        {
+            error += (b - mean).powi(2) * area;
+            norm += b * b * area;
+        }
+        assert!((error / norm).sqrt() < 0.02, "{method:?}: {:e}", (error / norm).sqrt());
+    }
+    let coupling = Elements::galerkin(&space, &patches, &visibility, 1e-2);
+    let (n, weights) = (space.dim(), space.weights());
+    let mut row = vec![0.0; n];
+    for i in (0..n).step_by(37) {
+        coupling.row(i, 0, &mut row);
+        for j in (0..n).step_by(11) {
+            assert!((row[j] - coupling.entry(i, j)).abs() < 1e-15, "{i} {j}");
+            let back = coupling.entry(j, i) * weights[j] / weights[i];
+            assert!((row[j] - back).abs() < 1e-14, "{i} {j}: {} {back}", row[j]);
         }
     }
 }

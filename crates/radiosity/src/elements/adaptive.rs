@@ -26,11 +26,11 @@ const FLATTENED: [usize; 7] = [6, 9, 13, 18, 25, 35, 50];
 /// A step that leaves more than this of the error promises nothing of the next.
 const SLOW: f64 = 0.5;
 
-/// Halves of a cell may agree without having seen what is narrow: at a gap of 10⁻³ the error was 13 times the tolerance.
-const SAFETY: f64 = 0.03;
+/// Halves of a cell may agree without having seen what is narrow.
+const SAFETY: f64 = 0.1;
 
-/// Cuts that follow each other, at most: 20 in each direction leave 10⁻⁶ of an edge.
-const DEEPEST: u32 = 40;
+/// Cells of a patch, at most: a pair takes no longer than a second, and has what they give.
+const MOST_CELLS: usize = 300;
 
 /// The integral of test functions times potentials over a patch.
 pub(super) struct Adaptive<'a, F, N> {
@@ -70,8 +70,20 @@ impl<'a, F: Fn(DVec3) -> Sample, N: Fn(&Block) -> f64> Adaptive<'a, F, N> {
             }
             (coarse, last) = (fine, error);
         }
+        self.by_cells(SAFETY * tolerance)
+    }
+
+    /// The integral by cells, the one with the largest error cut next, until the errors add up to the tolerance.
+    fn by_cells(&self, tolerance: f64) -> Block {
         let whole = Cell { low: [0.0; 2], high: [1.0; 2] };
-        self.refined(whole, &self.estimate(whole), SAFETY * tolerance, DEEPEST)
+        let mut parts = vec![self.part(whole, &self.estimate(whole))];
+        while parts.len() < MOST_CELLS && parts.iter().map(Part::error).sum::<f64>() > tolerance {
+            let errors = || parts.iter().map(Part::error).enumerate();
+            let Some((worst, _)) = errors().max_by(|a, b| a.1.total_cmp(&b.1)) else { break };
+            let Part { halves, .. } = parts.swap_remove(worst);
+            parts.extend(halves.iter().map(|(cell, estimate)| self.part(*cell, estimate)));
+        }
+        parts.iter().fold([[0.0; MOST]; MOST], |sum, part| combined(&sum, &part.value, 1.0))
     }
 
     /// The integral by n × n points that are dense at the edges.
@@ -85,25 +97,17 @@ impl<'a, F: Fn(DVec3) -> Sample, N: Fn(&Block) -> f64> Adaptive<'a, F, N> {
         block
     }
 
-    /// The integral over a cell, in halves until they agree with the whole, whichever way it is cut.
+    /// A cell, of which `whole` is an estimate, cut both ways.
     ///
     /// Halves in s and halves in t take away the errors of the rule in s and in t, so both corrections are made.
-    fn refined(&self, cell: Cell, whole: &Block, tolerance: f64, depth: u32) -> Block {
-        let cuts = [0, 1].map(|axis| {
-            let halves = cell.halves(axis);
-            (halves, halves.map(|half| self.estimate(half)))
-        });
+    fn part(&self, cell: Cell, whole: &Block) -> Part {
+        let cuts = [0, 1].map(|axis| cell.halves(axis).map(|half| (half, self.estimate(half))));
         let corrections =
-            cuts.each_ref().map(|(_, [first, second])| combined(&combined(first, second, 1.0), whole, -1.0));
+            cuts.each_ref().map(|[first, second]| combined(&combined(&first.1, &second.1, 1.0), whole, -1.0));
         let errors = corrections.each_ref().map(|correction| (self.norm)(correction));
-        if errors[0] + errors[1] <= tolerance || depth == 0 {
-            return combined(&combined(whole, &corrections[0], 1.0), &corrections[1], 1.0);
-        }
-        // Two errors of 1/√2 of the tolerance, of either sign, make about the tolerance.
-        let part = tolerance * std::f64::consts::FRAC_1_SQRT_2;
-        let (halves, estimates) = &cuts[usize::from(errors[1] > errors[0])];
-        let [first, second] = [0, 1].map(|k| self.refined(halves[k], &estimates[k], part, depth - 1));
-        combined(&first, &second, 1.0)
+        let value = combined(&combined(whole, &corrections[0], 1.0), &corrections[1], 1.0);
+        let [in_s, in_t] = cuts;
+        Part { value, errors, halves: if errors[1] > errors[0] { in_t } else { in_s } }
     }
 
     fn estimate(&self, cell: Cell) -> Block {
@@ -132,6 +136,19 @@ impl<'a, F: Fn(DVec3) -> Sample, N: Fn(&Block) -> f64> Adaptive<'a, F, N> {
         } else {
             (self.polygon.point(s, t), self.polygon.density(s, t))
         }
+    }
+}
+
+/// A cell with its integral, what it may be off by, and its halves where it is off by more.
+struct Part {
+    value: Block,
+    errors: [f64; 2],
+    halves: [(Cell, Block); 2],
+}
+
+impl Part {
+    fn error(&self) -> f64 {
+        self.errors[0] + self.errors[1]
     }
 }
 
