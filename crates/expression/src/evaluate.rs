@@ -95,24 +95,44 @@ impl Registers {
     /// The real values. A function of its own, of which only a call is compiled into what looks for the registers.
     #[inline(never)]
     fn fill(&mut self, program: &Program, columns: &[Column<'_>], out: &mut [f64]) {
-        for (block, out) in out.chunks_mut(LANES).enumerate() {
-            let varying = self.load(program, columns, block * LANES, out.len());
-            match program.steps.split_last() {
-                // the last step, which is the root's, writes where the values are wanted
-                Some((last, before)) if last.depends & varying != 0 => {
-                    self.varying(before, varying, out.len());
-                    last.real_value(&self.real, &self.complex, out);
-                }
-                _ => out.copy_from_slice(self.real[program.root].lanes(out.len())),
+        let lanes = out.len().min(LANES);
+        let varying = self.first(program, columns, out.len());
+        self.values(program, varying, &mut out[..lanes]);
+        if out.len() > LANES {
+            self.fill_rest(program, columns, varying, out);
+        }
+    }
+
+    /// The real values of the blocks after the first: apart, so that less is kept aside in a batch of one block.
+    #[inline(never)]
+    fn fill_rest(&mut self, program: &Program, columns: &[Column<'_>], varying: u64, out: &mut [f64]) {
+        for (block, out) in out.chunks_mut(LANES).enumerate().skip(1) {
+            self.next(columns, varying, block * LANES, out.len());
+            self.values(program, varying, out);
+        }
+    }
+
+    /// The real values of a block of which the columns have been loaded.
+    #[inline(always)]
+    fn values(&mut self, program: &Program, varying: u64, out: &mut [f64]) {
+        match program.steps.split_last() {
+            // the last step, which is the root's, writes where the values are wanted
+            Some((last, before)) if last.depends & varying != 0 => {
+                self.varying(before, varying, out.len());
+                last.real_value(&self.real, &self.complex, out);
             }
+            _ => out.copy_from_slice(self.real[program.root].lanes(out.len())),
         }
     }
 
     /// The values as complex numbers.
     #[inline(never)]
     fn fill_complex(&mut self, program: &Program, columns: &[Column<'_>], out: &mut [C]) {
+        let varying = self.first(program, columns, out.len());
         for (block, out) in out.chunks_mut(LANES).enumerate() {
-            let varying = self.load(program, columns, block * LANES, out.len());
+            if block > 0 {
+                self.next(columns, varying, block * LANES, out.len());
+            }
             self.varying(&program.steps, varying, out.len());
             if program.kind == Kind::Real {
                 lanes::promoted(out, self.real[program.root].lanes(out.len()));
@@ -122,30 +142,44 @@ impl Registers {
         }
     }
 
-    /// Some lanes of the columns; with the first of them, what is the same in all. Bit k tells whether column k is not.
+    /// What is the same in all lanes, and the columns of the first block. Bit k tells whether column k is needed, and not
+    /// the same.
     #[inline(always)]
-    fn load(&mut self, program: &Program, columns: &[Column<'_>], start: usize, lanes: usize) -> u64 {
+    fn first(&mut self, program: &Program, columns: &[Column<'_>], all: usize) -> u64 {
         self.prepare(program);
+        let lanes = all.min(LANES);
         let mut varying = 0;
         for (k, (register, column)) in self.real.iter_mut().zip(columns).enumerate() {
             match column {
                 Column::Same(value) => register.spread(*value, lanes),
-                Column::Each(values) if program.depends >> k & 1 == 1 => {
-                    varying |= 1 << k;
-                    register.load(&values[start..start + lanes]);
+                Column::Each(values) => {
+                    assert!(values.len() == all, "a column has a value for each lane");
+                    if program.depends >> k & 1 == 1 {
+                        varying |= 1 << k;
+                        register.load(&values[..lanes]);
+                    }
                 }
-                Column::Each(_) => {}
             }
         }
-        if start == 0 {
-            for step in program.steps.iter().filter(|step| step.depends & varying == 0) {
-                self.once(step, lanes);
-            }
+        for step in program.steps.iter().filter(|step| step.depends & varying == 0) {
+            self.once(step, lanes);
         }
         varying
     }
 
-    /// What is not, of these steps.
+    /// The columns of a block after the first.
+    #[inline(always)]
+    fn next(&mut self, columns: &[Column<'_>], varying: u64, start: usize, lanes: usize) {
+        for (k, (register, column)) in self.real.iter_mut().zip(columns).enumerate() {
+            if let Column::Each(values) = column
+                && varying >> k & 1 == 1
+            {
+                register.load(&values[start..start + lanes]);
+            }
+        }
+    }
+
+    /// Those of these steps of which the value is not the same in all lanes.
     #[inline(always)]
     fn varying(&mut self, steps: &[Step], varying: u64, lanes: usize) {
         for step in steps.iter().filter(|step| step.depends & varying != 0) {

@@ -129,7 +129,7 @@ impl Formula {
     /// # Panics
     /// If the formula [is complex](Formula::is_complex), a column is missing, or one has not the length of `out`.
     pub fn fill(&self, columns: &[Column<'_>], out: &mut [f64]) {
-        self.check_batch(columns, out.len());
+        self.check(columns.len());
         self.check_real();
         self.program.fill(columns, out);
     }
@@ -139,7 +139,7 @@ impl Formula {
     /// # Panics
     /// If a column is missing, or one has not the length of `out`.
     pub fn fill_complex(&self, columns: &[Column<'_>], out: &mut [Complex<f64>]) {
-        self.check_batch(columns, out.len());
+        self.check(columns.len());
         self.program.fill_complex(columns, out);
     }
 
@@ -149,14 +149,5 @@ impl Formula {
 
     fn check_real(&self) {
         assert!(!self.is_complex(), "the formula is complex: `at_complex` and `fill_complex` evaluate it");
-    }
-
-    fn check_batch(&self, columns: &[Column<'_>], lanes: usize) {
-        self.check(columns.len());
-        for column in columns {
-            if let Column::Each(values) = column {
-                assert_eq!(values.len(), lanes, "a value for each lane");
-            }
-        }
     }
 }

@@ -1,7 +1,8 @@
-//! Two operations in one step: half the way through registers, where the operations are additions and the like.
+//! Operations that are one step together: half the way through registers, where they are additions and the like.
 
 use crate::graph::{Graph, Kind, Node};
 use crate::operation::{Binary, Operation, Unary};
+use crate::program::Action;
 
 /// The second operation of a step, on the result r of the first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,49 +27,86 @@ pub(crate) enum Outer {
     Neg,
 }
 
-/// A node with the one that it swallows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// A node with those that it swallows, as one step.
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Fusion {
-    pub inner: Node,
-    pub first: Operation,
-    pub second: Outer,
-    /// The other argument of the second operation, or any if it has one alone.
-    pub other: Node,
+    pub swallowed: Vec<Node>,
+    pub action: Action,
+    pub arguments: Vec<Node>,
 }
 
-/// The fusions among `order`, each at the node that swallows another: one that nothing else needs, and that changes
-/// with the same columns; otherwise it would be computed more often than alone.
+/// A node with one that it could swallow.
+#[derive(Clone, Copy, Debug)]
+struct Pair {
+    inner: Node,
+    first: Operation,
+    second: Outer,
+    /// The other argument of the second operation, or any if it has one alone.
+    other: Node,
+}
+
+/// The fusions among `order`, each at the node that swallows others: those that nothing else needs, and that change
+/// with the same columns; otherwise they would be computed more often than alone.
 pub(crate) fn fusions(graph: &Graph, order: &[Node]) -> Vec<Option<Fusion>> {
     let size = order.last().map_or(0, |root| root + 1);
     let mut uses = vec![0; size];
     for node in order {
         graph.facts(*node).arguments.iter().for_each(|argument| uses[*argument] += 1);
     }
-    let mut fusions = vec![None; size];
+    let mut fusions: Vec<Option<Fusion>> = vec![None; size];
     for node in order {
-        let free = |inner: Node| uses[inner] == 1 && fusions[inner].is_none();
-        let same = |inner: Node| graph.facts(inner).depends == graph.facts(*node).depends;
-        fusions[*node] = candidates(graph, *node)
+        let free = |inner: Node| uses[inner] == 1 && graph.facts(inner).depends == graph.facts(*node).depends;
+        let pair = pairs(graph, *node)
             .into_iter()
             .flatten()
-            .find(|fusion: &Fusion| free(fusion.inner) && same(fusion.inner));
+            .find(|pair| free(pair.inner) && fusions[pair.inner].is_none());
+        fusions[*node] = pair.map(|pair| {
+            let left = fusions[pair.other].as_ref().filter(|_| free(pair.other));
+            left.and_then(|left| chosen_and_left(graph, pair, left)).unwrap_or_else(|| alone(graph, pair))
+        });
     }
     fusions
 }
 
+/// The pair as a step.
+fn alone(graph: &Graph, pair: Pair) -> Fusion {
+    let arguments = [graph.facts(pair.inner).arguments.as_slice(), &[pair.other]].concat();
+    Fusion { swallowed: vec![pair.inner], action: Action::Two(pair.first, pair.second), arguments }
+}
+
+/// The pair with the step that its other argument is, as one: if it multiplies a choice of two with something of what
+/// the choice leaves. Green's functions are such products, u(min(x, y)) v(max(x, y)).
+fn chosen_and_left(graph: &Graph, pair: Pair, left: &Fusion) -> Option<Fusion> {
+    let Action::Two(first, second) = left.action else { return None };
+    let chosen = graph.facts(pair.inner).arguments.as_slice();
+    let opposite = match (pair.first, first, chosen) {
+        (Operation::Binary(Binary::Min), Operation::Binary(Binary::Max), _)
+        | (Operation::Binary(Binary::Max), Operation::Binary(Binary::Min), _) => {
+            left.arguments.starts_with(chosen)
+        }
+        (Operation::BySign, Operation::BySign, [gap, a, b]) => left.arguments.starts_with(&[*gap, *b, *a]),
+        _ => false,
+    };
+    (opposite && pair.second == Outer::Mul).then(|| Fusion {
+        swallowed: [left.swallowed.as_slice(), &[pair.inner, pair.other]].concat(),
+        action: Action::ChosenAndLeft(pair.first, second),
+        arguments: [chosen, &left.arguments[chosen.len()..]].concat(),
+    })
+}
+
 /// What a node could swallow.
-fn candidates(graph: &Graph, node: Node) -> [Option<Fusion>; 2] {
+fn pairs(graph: &Graph, node: Node) -> [Option<Pair>; 2] {
     let facts = graph.facts(node);
     let argument = |k: usize| facts.arguments[k];
-    let fusion = |inner: Node, second: Outer, other: Node| {
-        Some(Fusion { inner, first: quick(graph, inner)?, second, other })
+    let pair_of = |inner: Node, second: Outer, other: Node| {
+        Some(Pair { inner, first: quick(graph, inner)?, second, other })
     };
     let alone = |second: Outer| {
         let inner = argument(0);
-        [graph.facts(inner).arguments.first().and_then(|any| fusion(inner, second, *any)), None]
+        [graph.facts(inner).arguments.first().and_then(|any| pair_of(inner, second, *any)), None]
     };
     let pair = |left: Outer, right: Outer| {
-        [fusion(argument(0), left, argument(1)), fusion(argument(1), right, argument(0))]
+        [pair_of(argument(0), left, argument(1)), pair_of(argument(1), right, argument(0))]
     };
     if facts.kind != Kind::Real || facts.arguments.iter().any(|argument| !graph.is_real(*argument)) {
         return [None; 2];

@@ -55,6 +55,7 @@ pub(crate) type Kernel = fn(&Step, &[Block<f64>], &mut [f64]);
 pub(crate) fn kernel(action: Action) -> Kernel {
     match action {
         Action::Two(first, second) => fused(first, second),
+        Action::ChosenAndLeft(first, second) => chosen_and_left(first, second),
         Action::One(Operation::Unary(operation)) => unary(operation),
         Action::One(Operation::Binary(operation)) => binary(operation),
         Action::One(Operation::Power(n)) => powers(n),
@@ -108,36 +109,62 @@ fn powers(n: i32) -> Kernel {
     run!(2, 3, 4, -1, -2)
 }
 
+/// The loop of a step that ends with an outer operation, whichever it is: `$value` is that operation, of the result of the
+/// first one and of `c`.
+macro_rules! with_outer {
+    ($outer:expr, |$arguments:pat_param, $value:ident| $result:expr) => {
+        with_outer!(
+            $outer, |$arguments, $value| $result;
+            Add => |r, c| r + c, Sub => |r, c| r - c, SubFrom => |r, c| c - r,
+            Mul => |r, c| r * c, Div => |r, c| r / c, DivInto => |r, c| c / r,
+            Square => |r, _| r * r, Abs => |r, _| r.abs(), Neg => |r, _| -r
+        )
+    };
+    ($outer:expr, |$arguments:pat_param, $value:ident| $result:expr; $($name:ident => $operation:expr),*) => {
+        match $outer {
+            $(Outer::$name => |step, real, out| {
+                quick(step, real, out, |$arguments| {
+                    let $value: fn(f64, f64) -> f64 = $operation;
+                    $result
+                });
+            },)*
+        }
+    };
+}
+
 /// `second` of the last argument and of what `first` makes of those before.
 fn fused(first: Operation, second: Outer) -> Kernel {
     macro_rules! run {
-        (|$arguments:pat_param| $first:expr, $last:expr; $($second:ident => $value:expr),*) => {
-            match second {
-                $(Outer::$second => |step, real, out| {
-                    quick(step, real, out, |$arguments| {
-                        let value: fn(f64, f64) -> f64 = $value;
-                        value($first, $last)
-                    })
-                },)*
-            }
-        };
-        (|$arguments:pat_param| $first:expr, $last:expr) => {
-            run!(
-                |$arguments| $first, $last;
-                Add => |r, c| r + c, Sub => |r, c| r - c, SubFrom => |r, c| c - r,
-                Mul => |r, c| r * c, Div => |r, c| r / c, DivInto => |r, c| c / r,
-                Square => |r, _| r * r, Abs => |r, _| r.abs(), Neg => |r, _| -r
-            )
-        };
         ($($first:ident),*) => {
             match first {
-                $(Operation::Binary(Binary::$first) => run!(|[a, b, last]| Binary::$first.at(a, b), last),)*
-                Operation::BySign => run!(|[c, a, b, last]| by_sign(c, a, b), last),
+                $(Operation::Binary(Binary::$first) => {
+                    with_outer!(second, |[a, b, c], value| value(Binary::$first.at(a, b), c))
+                })*
+                Operation::BySign => {
+                    with_outer!(second, |[gap, a, b, c], value| value(by_sign(gap, a, b), c))
+                }
                 _ => slow,
             }
         };
     }
     run!(Add, Sub, Mul, Div, Min, Max)
+}
+
+/// What `first` chooses of two arguments, times `second` of the last one and of what it leaves.
+fn chosen_and_left(first: Operation, second: Outer) -> Kernel {
+    match first {
+        Operation::Binary(Binary::Min) => {
+            with_outer!(second, |[a, b, c], value| Binary::Min.at(a, b) * value(Binary::Max.at(a, b), c))
+        }
+        Operation::Binary(Binary::Max) => {
+            with_outer!(second, |[a, b, c], value| Binary::Max.at(a, b) * value(Binary::Min.at(a, b), c))
+        }
+        Operation::BySign => {
+            // both products, and one choice between them, which is quicker than two choices
+            with_outer!(second, |[gap, a, b, c], value| by_sign(gap, a * value(b, c), b * value(a, c)))
+        }
+        _ => slow,
+    }
 }
 
 /// f of the arguments, in a loop that becomes vector instructions: over slices that are known to be of one length.

@@ -8,11 +8,13 @@ use num_complex::Complex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// What a step does.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Action {
     One(Operation),
     /// The first two arguments combined, or three by their sign, then the last.
     Two(Operation, Outer),
+    /// What the operation chooses of two arguments, times the outer one of what it leaves and of the last.
+    ChosenAndLeft(Operation, Outer),
 }
 
 /// One action: on the registers of its arguments, into its own.
@@ -68,16 +70,20 @@ impl Program {
         let order = reachable(graph, root);
         let fusions = fusions(graph, &order);
         let mut swallowed = vec![false; root + 1];
-        fusions.iter().flatten().for_each(|fusion| swallowed[fusion.inner] = true);
+        fusions
+            .iter()
+            .flatten()
+            .flat_map(|fusion| &fusion.swallowed)
+            .for_each(|node| swallowed[*node] = true);
         for node in order.into_iter().filter(|node| !swallowed[*node]) {
-            registers[node] = program.compile(graph, node, fusions[node], &registers);
+            registers[node] = program.compile(graph, node, fusions[node].as_ref(), &registers);
         }
         program.root = registers[root];
         program
     }
 
     /// Adds a node whose arguments have been added; its register.
-    fn compile(&mut self, graph: &Graph, node: Node, fusion: Option<Fusion>, registers: &[usize]) -> usize {
+    fn compile(&mut self, graph: &Graph, node: Node, fusion: Option<&Fusion>, registers: &[usize]) -> usize {
         let facts = graph.facts(node);
         if let Operation::Variable(column) = facts.operation {
             return column;
@@ -101,10 +107,7 @@ impl Program {
             (Operation::Constant(value), Kind::Complex, _) => {
                 self.complex_constants.push((register, value.into()));
             }
-            (_, _, Some(Fusion { inner, first, second, other })) => {
-                let arguments = [graph.facts(inner).arguments.as_slice(), &[other]].concat();
-                self.steps.push(step(Action::Two(first, second), &arguments));
-            }
+            (_, _, Some(fusion)) => self.steps.push(step(fusion.action, &fusion.arguments)),
             (operation, _, None) => self.steps.push(step(Action::One(operation), &facts.arguments)),
         }
         register

@@ -1,6 +1,6 @@
 //! What a formula means.
 
-use expression::{Formula, functions};
+use expression::{Column, Formula, functions};
 use std::f64::consts::{E, PI};
 
 /// The value at x = 2, y = 3, with a parameter c = 0.5.
@@ -205,4 +205,55 @@ fn dependence_is_of_the_columns_read() {
     let formula = Formula::parse("x*t + if(x>0, 1, 2)", &["x", "y", "s", "t"]).unwrap();
     assert_eq!([0, 1, 2, 3, 4, 99].map(|k| formula.depends_on(k)), [true, false, false, true, false, false]);
     assert!(!Formula::parse("1+pi", &["x"]).unwrap().depends_on(0));
+}
+
+#[test]
+fn a_greens_function_is_what_its_parts_are() {
+    // one step of four operations, against the operations one by one, to the last bit, in batches of every kind of rest
+    type Closure = fn(f64, f64) -> f64;
+    let parts: [(&str, Closure); 6] = [
+        ("min(x,y)*(1-max(x,y))", |x, y| x.min(y) * (1.0 - x.max(y))),
+        ("(1-max(x,y))*min(x,y)", |x, y| x.min(y) * (1.0 - x.max(y))),
+        ("max(x,y)*(min(x,y)-3)", |x, y| x.max(y) * (x.min(y) - 3.0)),
+        ("min(x,y)*(max(x,y)/7)", |x, y| x.min(y) * (x.max(y) / 7.0)),
+        ("min(x,y)*max(x,y)^2", |x, y| x.min(y) * (x.max(y) * x.max(y))),
+        ("min(x,y)*(1-max(x,2*y))", |x, y| x.min(y) * (1.0 - x.max(2.0 * y))),
+    ];
+    for (text, expected) in parts {
+        let formula = Formula::parse(text, &["x", "y"]).unwrap();
+        let exact = Formula::with_difference(text, &["x", "y"], &[], ("y", "x")).unwrap();
+        for lanes in 1..=70 {
+            let y: Vec<f64> = (0..lanes).map(|k| f64::from(k) / 9.0 - 2.0).collect();
+            let gaps: Vec<f64> = y.iter().map(|y| y - 0.3).collect();
+            let points: Vec<f64> = y.iter().map(|y| expected(0.3, *y)).collect();
+            let mut row = vec![0.0; y.len()];
+            formula.fill(&[Column::Same(0.3), Column::Each(&y)], &mut row);
+            assert_eq!(row, points, "{text}");
+            row.fill(0.0);
+            exact.fill(&[Column::Same(0.3), Column::Each(&y), Column::Each(&gaps)], &mut row);
+            assert_eq!(row, points, "{text}, exact");
+        }
+        assert!(formula.at(&[f64::NAN, 0.3]).is_nan() && formula.at(&[0.3, f64::NAN]).is_nan(), "{text}");
+        assert!(exact.at(&[0.3, 0.4, f64::NAN]).is_nan(), "{text}");
+    }
+}
+
+#[test]
+fn a_batch_of_any_length_is_its_points() {
+    // slow functions leave lanes of the last piece to the piece before; sums of them show it
+    let formula = Formula::parse("exp(-x*y) + sin(y)*ln(y+4)", &["x", "y"]).unwrap();
+    for lanes in 0..=140 {
+        let y: Vec<f64> = (0..lanes).map(|k| f64::from(k) / 50.0).collect();
+        let points: Vec<f64> = y.iter().map(|y| formula.at(&[0.7, *y])).collect();
+        let mut row = vec![f64::NAN; y.len()];
+        formula.fill(&[Column::Same(0.7), Column::Each(&y)], &mut row);
+        assert_eq!(row, points);
+    }
+}
+
+#[test]
+#[should_panic(expected = "a value for each lane")]
+fn a_column_of_another_length_is_refused() {
+    let formula = Formula::parse("x+y", &["x", "y"]).unwrap();
+    formula.fill(&[Column::Same(0.7), Column::Each(&[1.0, 2.0, 3.0])], &mut [0.0; 2]);
 }

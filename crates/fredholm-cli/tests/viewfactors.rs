@@ -225,6 +225,104 @@ fn every_format_has_the_same_factors() {
     assert!(archive.starts_with(b"PK") && archive.windows(name.len()).any(|bytes| bytes == name));
 }
 
+/// A unit cube as View3D has it, or so many of its six faces, with a control line.
+fn view3d_cube(control: &str, faces: usize) -> String {
+    let mut text = format!("T cube\n{control}\nF 3\n");
+    for k in 0..8 {
+        writeln!(text, "V {} {} {} {}", k + 1, k & 1, k >> 1 & 1, k >> 2).unwrap();
+    }
+    for (k, wall) in WALLS.iter().enumerate().take(faces) {
+        let [a, b, c, d] = wall.map(|corner| corner + 1);
+        writeln!(text, "S {} {a} {b} {c} {d} 0 0 0.{}5 w{k}", k + 1, 9 - k).unwrap();
+    }
+    text
+}
+
+/// A file in View3D's binary format: the words of its first line, areas, rows of F, emittances.
+fn binary(bytes: &[u8]) -> (Vec<String>, Vec<f32>, Vec<Vec<f32>>, Vec<f32>) {
+    let header = std::str::from_utf8(&bytes[..32]).unwrap();
+    assert!(header.ends_with("\r\n") && !header[..30].contains(['\r', '\n', '\0']), "{header:?}");
+    let words: Vec<String> = header.split_whitespace().map(str::to_owned).collect();
+    let n: usize = words[5].parse().unwrap();
+    let numbers: Vec<f32> =
+        bytes[32..].chunks(4).map(|bytes| f32::from_le_bytes(bytes.try_into().unwrap())).collect();
+    assert_eq!(numbers.len(), n * (n + 2));
+    let rows: Vec<Vec<f32>> = numbers.chunks(n).map(<[f32]>::to_vec).collect();
+    (words, rows[0].clone(), rows[1..=n].to_vec(), rows[n + 1].clone())
+}
+
+#[test]
+fn the_control_line_of_a_view3d_file_is_followed() {
+    let folder = folder("viewfactors_control");
+    fs::write(folder.join("cube.vs3"), view3d_cube("C eps=1e-3 encl=1 out=1", 6)).unwrap();
+    let run = |words: &str| {
+        let output = fredholm(&folder, &format!("viewfactors cube.vs3 {words} --json a.json"));
+        assert!(output.status.success() && output.stderr.is_empty(), "{}", text(&output.stderr));
+        (text(&output.stdout), json(&fs::read(folder.join("a.json")).unwrap()))
+    };
+    let (table, report) = run("-o a.out -o b.VF -o c.vfb");
+    assert!(
+        table.contains(
+            "the file      eps=1e-3 is the tolerance; encl=1: closure is checked, and not enforced"
+        )
+    );
+    assert!(table.contains("out=1: .out and .vf are binary") && table.contains("1.0e-3 allowed"), "{table}");
+    assert_eq!((report["tolerance"].as_f64(), report["tolerance_from"].as_str()), (Some(1e-3), Some("file")));
+    assert_eq!((report["encl"].as_bool(), report["correction"].is_null()), (Some(true), true));
+    let read = |name: &str| fs::read(folder.join(name)).unwrap();
+    let (words, areas, rows, emittances) = binary(&read("a.out"));
+    assert_eq!((&*words[0], &words[2..]), ("fredholm", &["1", "1", "0", "6"].map(String::from)[..]));
+    assert_eq!(areas, [1.0; 6]);
+    assert_eq!(emittances, [0.95, 0.85, 0.75, 0.65, 0.55, 0.45]);
+    for (row, factors) in rows.iter().zip(matrix(&report, "F")) {
+        assert_eq!(*row, factors.iter().map(|factor| *factor as f32).collect::<Vec<_>>());
+    }
+    assert_eq!((read("b.VF"), read("c.vfb")), (read("a.out"), read("a.out")));
+
+    let (table, report) = run("--tolerance 1e-5");
+    assert!(
+        table.contains("eps=1e-3, but --tolerance is given") && table.contains("1.0e-5 allowed"),
+        "{table}"
+    );
+    assert_eq!(
+        (report["tolerance"].as_f64(), report["tolerance_from"].as_str()),
+        (Some(1e-5), Some("option"))
+    );
+}
+
+#[test]
+fn what_a_view3d_file_asks_for_and_does_not_get_is_told() {
+    let folder = folder("viewfactors_control_not_done");
+    fs::write(folder.join("open.vs3"), view3d_cube("C encl=1 emit=1 row=2 out=2", 5)).unwrap();
+    fs::write(folder.join("plain.vs3"), view3d_cube("C out=0", 6)).unwrap();
+    let output = fredholm(&folder, "viewfactors open.vs3 -o a.out -o b.vfb");
+    assert!(output.status.success());
+    let told = text(&output.stderr);
+    for word in ["`emit=1`", "`row=2`", "`out=2`", "`encl=1`"] {
+        assert!(
+            told.lines().any(|line| line.starts_with("warning: open.vs3:2: ") && line.contains(word)),
+            "{told}"
+        );
+    }
+    assert_eq!(told.lines().count(), 4 + 1, "and that edges are open: {told}");
+    let table = text(&output.stdout);
+    assert!(table.contains("open, ALTHOUGH THE FILE SAYS encl=1: "), "{table}");
+    assert!(table.contains("1.0e-4 allowed"), "the default: {table}");
+    assert!(
+        text(&fs::read(folder.join("a.out")).unwrap())
+            .lines()
+            .next()
+            .unwrap()
+            .trim_end()
+            .ends_with(" 0 0 0 5")
+    );
+    assert_eq!(binary(&fs::read(folder.join("b.vfb")).unwrap()).0[2..], ["1", "0", "0", "5"]);
+
+    let output = fredholm(&folder, "viewfactors plain.vs3 -o c.out");
+    assert!(output.stderr.is_empty() && !text(&output.stdout).contains("the file"));
+    assert!(text(&fs::read(folder.join("c.out")).unwrap()).contains(" 0 1 0 6 "));
+}
+
 #[test]
 fn the_digits_are_the_same_for_any_number_of_threads() {
     let folder = scenes("viewfactors_threads");
@@ -270,12 +368,15 @@ const BAD: &[Case] = &[
     ("cube.obj --tolerance nan", 2, &["positive finite number"]),
     ("cube.obj --tolerance -1", 2, &["positive finite number"]),
     ("cube.obj --threads 0", 2, &["1 to 1024"]),
-    ("cube.obj -o a.txt", 2, &["a.txt", ".npz or .csv or .mtx or .vf or .out"]),
+    ("cube.obj -o a.txt", 2, &["a.txt", ".npz or .csv or .mtx or .vf or .out or .vfb"]),
     ("cube.obj -o no/such.npz", 1, &["cannot write no/such.npz", "folder no"]),
     ("cube.obj -o a.npz -o b.csv --json no/such.json", 1, &["cannot write no/such.json"]),
     ("cube.obj -o a.csv -o a.csv", 1, &["two outputs", "a.csv"]),
     ("cube.obj -o a.csv --json a.csv", 1, &["two outputs", "a.csv"]),
     ("cube.obj --json .", 1, &["it is a folder"]),
+    ("masked.vs3", 1, &["masked.vs3:18", "masking surfaces", "`N`"]),
+    ("eps.vs3", 1, &["eps.vs3:2", "`eps=0`", "positive"]),
+    ("out.vs3", 1, &["out.vs3:2", "`out=3`"]),
 ];
 
 #[test]
@@ -284,6 +385,10 @@ fn bad_input_is_told_in_one_message() {
     fs::write(folder.join("empty.obj"), "").unwrap();
     fs::write(folder.join("mesh.xyz"), "0 0 0\n").unwrap();
     fs::write(folder.join("flat.obj"), "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n").unwrap();
+    let masked = view3d_cube("C encl=1", 6) + "M 7 1 2 3 4 1 0 0.9 mask\n";
+    fs::write(folder.join("masked.vs3"), masked).unwrap();
+    fs::write(folder.join("eps.vs3"), view3d_cube("C eps=0", 6)).unwrap();
+    fs::write(folder.join("out.vs3"), view3d_cube("C out=3", 6)).unwrap();
     let messages = refuse(&folder, BAD, |words| fredholm(&folder, &format!("viewfactors {words}")));
     for (message, (words, code, _)) in messages.iter().zip(BAD) {
         assert!(*code == 2 || message.lines().count() == 1, "`{words}`: {message}");

@@ -13,6 +13,9 @@ The tolerance is an absolute error: no factor and no sum of a row is to be furth
 Every factor comes with its own error. Reciprocity, A_i F_ij = A_j F_ji, holds by construction; in
 a closed mesh the rows miss 1 by what the errors are, unless --enforce makes them add up.
 
+Of the control line `C` of View3D's .vs3 files `eps` is the tolerance, `out=1` asks for its binary
+format, and with `encl=1` an open mesh is told; nothing is corrected for that.
+
 \
 Examples:
   fredholm viewfactors room.obj                              a table, and the factors of few faces
@@ -34,9 +37,9 @@ pub struct ViewFactors {
     #[arg(long)]
     pub groups: bool,
 
-    /// The greatest error wanted of a factor and of the sum of a row
-    #[arg(long, value_name = "ERROR", value_parser = positive, default_value = "1e-4")]
-    pub tolerance: f64,
+    /// The greatest error wanted of a factor and of the sum of a row [default: `eps` of a .vs3 file, or 1e-4]
+    #[arg(long, value_name = "ERROR", value_parser = positive)]
+    pub tolerance: Option<f64>,
 
     /// Correct the factors by as little as closes them: rows add up to 1, no factor below 0
     #[arg(long)]
@@ -46,11 +49,12 @@ pub struct ViewFactors {
     #[arg(long, value_name = "N", value_parser = number(1, 1024))]
     pub threads: Option<usize>,
 
-    /// The matrix, in the format of the name: NumPy, CSV, MatrixMarket, or View3D's; may be said again
+    /// The matrix, in the format of the name: NumPy, CSV, MatrixMarket, or View3D's, text, or binary (.vfb; .vf and .out
+    /// too if a .vs3 file has `out=1`); may be said again
     #[arg(
         short,
         long,
-        value_name = "FILE.npz|.csv|.mtx|.vf|.out",
+        value_name = "FILE.npz|.csv|.mtx|.vf|.out|.vfb",
         value_parser = matrix,
         help_heading = "Output"
     )]
@@ -62,5 +66,5 @@ pub struct ViewFactors {
 }
 
 fn matrix(text: &str) -> Result<PathBuf, String> {
-    with_extension(text, &["npz", "csv", "mtx", "vf", "out"])
+    with_extension(text, &["npz", "csv", "mtx", "vf", "out", "vfb"])
 }

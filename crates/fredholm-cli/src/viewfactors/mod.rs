@@ -1,6 +1,7 @@
 //! `fredholm viewfactors`: a mesh becomes the factors F_ij between its faces, each with its error, and files.
 
 pub mod args;
+mod asked;
 mod engine;
 mod faces;
 mod outputs;
@@ -8,6 +9,7 @@ mod report;
 mod table;
 
 use self::args::ViewFactors as Arguments;
+use self::asked::{Asked, not_done};
 use self::engine::{between, counts};
 use self::faces::{Face, areas, emittance, faces, groups};
 use self::outputs::{Outputs, write};
@@ -46,14 +48,16 @@ pub fn command(args: &Arguments) -> Result<Ending> {
     let mut stages = Stages::default();
     let loaded = timed(&mut stages.load, || load_unlit(&args.mesh))?;
     let (scene, faces) = (&loaded.scene, faces(&loaded));
-    check_memory(&faces, scene, args)?;
+    let asked = Asked::new(args.tolerance, loaded.control.as_ref());
+    let tolerance = asked.tolerance;
+    check_memory(&faces, scene, args, tolerance)?;
     let outputs = Outputs::prepare(args)?;
     let examined = timed(&mut stages.load, || examine(scene, &loaded.faces));
 
     let polygons = scene.polygons();
     let visibility = timed(&mut stages.load, || Visibility::new(&polygons));
-    let pairs = timed(&mut stages.factors, || Pairs::new(&polygons, TO_INTEGRATE * args.tolerance));
-    let by_face = timed(&mut stages.factors, || assemble(&pairs, &faces, &polygons, args.tolerance));
+    let pairs = timed(&mut stages.factors, || Pairs::new(&polygons, TO_INTEGRATE * tolerance));
+    let by_face = timed(&mut stages.factors, || assemble(&pairs, &faces, &polygons, tolerance));
     let enclosure = enclosure(&by_face, &faces, &polygons, &visibility);
     let closing = || close(by_face, &enclosure, args);
     let (by_face, correction) = timed(&mut stages.enforce, closing)?;
@@ -62,7 +66,7 @@ pub fn command(args: &Arguments) -> Result<Ending> {
     let surroundings = Surroundings { is_closed: enclosure.is_closed(), emittances: &rows.emittances };
     let mut files = Vec::new();
     for output in outputs.matrices {
-        files.push(timed(&mut stages.write, || write(output, &rows.factors, &surroundings))?);
+        files.push(timed(&mut stages.write, || write(output, &rows.factors, &surroundings, &asked))?);
     }
     files.extend(outputs.json.as_ref().and_then(Json::file));
     let sums = rows.factors.row_sums();
@@ -75,7 +79,7 @@ pub fn command(args: &Arguments) -> Result<Ending> {
         areas: rows.factors.areas(),
         factors: Matrix(&rows.factors),
         error: Errors(&rows.factors),
-        tolerance: args.tolerance,
+        asked,
         largest_error: rows.factors.largest_error().map_or(0.0, |(error, _)| error),
         largest_row_error: sums.iter().map(|sum| sum.error).fold(0.0, f64::max),
         closed: enclosure.is_closed(),
@@ -93,14 +97,17 @@ pub fn command(args: &Arguments) -> Result<Ending> {
     };
     // What is refused has one message; what is not has these beside its table.
     loaded.warnings.iter().try_for_each(warn)?;
+    let control = loaded.control.iter();
+    let not_done = control.flat_map(|control| not_done(control, &args.mesh, enclosure.is_closed()));
+    not_done.into_iter().try_for_each(|message| warn(&message))?;
     examined.findings.iter().try_for_each(|finding| warn(&format!("{}: {finding}", args.mesh.display())))?;
     json::stream(outputs.json, &report, &table(&report, &rows.factors))?;
     Ok(if report.is_met() { Ending::Converged } else { Ending::NotConverged })
 }
 
 /// That the matrix fits, before anything is computed.
-fn check_memory(faces: &[Face], scene: &Scene<Rgb>, args: &Arguments) -> Result<()> {
-    let storage = Storage::for_tolerance(args.tolerance);
+fn check_memory(faces: &[Face], scene: &Scene<Rgb>, args: &Arguments, tolerance: f64) -> Result<()> {
+    let storage = Storage::for_tolerance(tolerance);
     let grouped = if args.groups { ViewFactors::grouped_bytes(groups(faces, scene).1.len()) } else { 0 };
     let (needed, free) = (ViewFactors::bytes(faces.len(), storage) + grouped, memory::limit());
     if needed <= free {

@@ -1,5 +1,6 @@
 //! The numbers of a run: what `--json` writes and the table shows.
 
+use super::asked::Asked;
 use super::engine::Counts;
 use radiosity::view_factors::{Correction, Storage, ViewFactors};
 use serde::{Serialize, Serializer};
@@ -23,8 +24,10 @@ pub struct Report<'a> {
     pub factors: Matrix<'a>,
     /// The errors in the same places.
     pub error: Errors<'a>,
-    /// The greatest error that was asked for, of a factor and of the sum of a row.
-    pub tolerance: f64,
+    /// The greatest error that was asked for, of a factor and of the sum of a row, where it comes from, and what else the
+    /// mesh asks for.
+    #[serde(flatten)]
+    pub asked: Asked,
     /// The greatest error of a factor.
     pub largest_error: f64,
     /// The greatest error of the sum of a row.
@@ -58,7 +61,7 @@ pub struct Report<'a> {
 impl Report<'_> {
     /// Whether every factor and row sum is as exact as was asked: by their errors, and where it is known by the truth.
     pub fn is_met(&self) -> bool {
-        let Self { tolerance, largest_error, largest_row_error, .. } = self;
+        let Self { asked: Asked { tolerance, .. }, largest_error, largest_row_error, .. } = self;
         // NaN is not.
         largest_error <= tolerance && largest_row_error <= tolerance && self.misses_one() <= *tolerance
     }

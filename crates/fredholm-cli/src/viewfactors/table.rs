@@ -1,5 +1,6 @@
 //! The numbers of a run as people read them.
 
+use super::asked::Asked;
 use super::report::{Corrected, Report, Stages};
 use crate::radiosity::table::grouped;
 use crate::solve::table::time;
@@ -26,6 +27,9 @@ fn matters(report: &Report<'_>) -> Vec<(&'static str, String)> {
         None => count(report.faces),
     };
     let mut matters = vec![("faces", faces), ("pairs", pairs(report)), ("rays", grouped(report.rays))];
+    if let Some(told) = report.asked.told() {
+        matters.push(("the file", told));
+    }
     matters.push(("error", error(report)));
     matters.push(("closure", closure(report)));
     if let Some(correction) = &report.correction {
@@ -62,7 +66,7 @@ fn pairs(report: &Report<'_>) -> String {
 }
 
 fn error(report: &Report<'_>) -> String {
-    let Report { largest_error, largest_row_error, tolerance, .. } = report;
+    let Report { largest_error, largest_row_error, asked: Asked { tolerance, .. }, .. } = report;
     let told = format!(
         "at most {} of a factor, {} of the sum of a row",
         power(*largest_error),
@@ -78,7 +82,9 @@ fn error(report: &Report<'_>) -> String {
 
 fn closure(report: &Report<'_>) -> String {
     if !report.closed {
-        return format!("open: {:.1} % of the sight lines leave the scene", 100.0 * report.escaping);
+        let although = if report.asked.enclosure { ", ALTHOUGH THE FILE SAYS encl=1" } else { "" };
+        let escaping = 100.0 * report.escaping;
+        return format!("open{although}: {escaping:.1} % of the sight lines leave the scene");
     }
     if report.closure_rows == 0 {
         return "closed, but every row sees a back: none to check".to_owned();

@@ -73,6 +73,7 @@ fn title_and_control_are_read_and_the_unknown_is_told() {
     let loaded = vs3(&text);
     assert_eq!(loaded.scene.name, "Two rooms");
     let control = Control {
+        line: Some(2),
         accuracy: Some(1e-5),
         row: Some(2),
         column: Some(1),

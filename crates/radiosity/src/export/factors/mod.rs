@@ -6,6 +6,7 @@
 //! | CSV | [`write_csv`] | names | written |
 //! | MatrixMarket, coordinate | [`write_matrix_market`] | names and areas, as comments | left out |
 //! | View3D's text format | [`write_view3d`] | areas, and emittances | written |
+//! | View3D's binary format, in `f32` | [`write_view3d_binary`] | areas, and emittances | written |
 //!
 //! Factors go through row by row: no second matrix is made in memory.
 
@@ -18,7 +19,7 @@ mod view3d;
 pub use csv::write_csv;
 pub use matrix_market::write_matrix_market;
 pub use npz::write_npz;
-pub use view3d::{Surroundings, write_view3d};
+pub use view3d::{Surroundings, write_view3d, write_view3d_binary};
 
 use crate::view_factors::{Storage, ViewFactors};
 

@@ -123,6 +123,30 @@ fn view3d_reads_its_own_format() {
     }
 }
 
+#[test]
+fn view3d_reads_its_own_binary_format() {
+    for storage in STORAGES {
+        let factors = factors(storage);
+        let surroundings = Surroundings { is_closed: true, emittances: &[0.9, 0.85, 0.1234] };
+        let mut bytes = Vec::new();
+        write_view3d_binary(&factors, &surroundings, &mut bytes).unwrap();
+        // As its reader does: a first line, whose end is its 32nd byte, six words; and then numbers of four bytes.
+        assert_eq!(bytes.iter().position(|byte| *byte == b'\n'), Some(31));
+        let (header, rest) = bytes.split_at(32);
+        let header = std::str::from_utf8(header).unwrap();
+        let words: Vec<&str> = header.split_whitespace().collect();
+        assert_eq!((words[0], &words[2..]), ("fredholm", &["1", "1", "0", "3"][..]));
+        assert!(header.is_ascii() && header.ends_with(" \r\n"), "{header:?}");
+        let numbers: Vec<f32> =
+            rest.chunks(4).map(|bytes| f32::from_le_bytes(bytes.try_into().unwrap())).collect();
+        assert_eq!(numbers.len(), 3 + 9 + 3);
+        assert_eq!((&numbers[..3], &numbers[12..]), (&[1.0, 0.7, 3.0][..], &[0.9, 0.85, 0.1234][..]));
+        for (k, factor) in numbers[3..12].iter().enumerate() {
+            assert_eq!(*factor, factors.factor(k / 3, k % 3) as f32, "{k}");
+        }
+    }
+}
+
 /// A disk with room for so many bytes.
 struct Small(Cursor<Vec<u8>>, usize);
 

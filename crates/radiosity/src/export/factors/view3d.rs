@@ -1,7 +1,8 @@
-//! The text file of view factors that View3D writes (Walton, NISTIR 6925; section 6 of its manual), for its readers.
+//! The files of view factors that View3D writes (Walton, NISTIR 6925; section 6 of its manual), for its readers.
 //!
-//! A line of what it is, `program version out encl emit n`; a line of areas; a line for each row of F; a line of
-//! emittances. Numbers are separated by a space.
+//! A line of what it is, `program version out encl emit n`; then areas; the rows of F; emittances. As text (`out` = 0)
+//! each is a line of numbers with a space between them; as binary (`out` = 1) the first line has 32 bytes, the last two
+//! of which are CR and LF, and the numbers are `f32` with nothing between them.
 
 use crate::view_factors::{Storage, ViewFactors};
 use std::io::{self, Write};
@@ -15,7 +16,8 @@ pub struct Surroundings<'a> {
     pub emittances: &'a [f64],
 }
 
-/// The length to which the first line is padded; readers take 34 characters and not more.
+/// The length to which the first line is padded; readers of the text take 34 characters and not more, and those of the
+/// binary file 32 bytes with the end of the line.
 const HEADER: usize = 30;
 
 /// Writes F in View3D's text format (`out = 0`, without emittances in the factors: `emit = 0`).
@@ -26,10 +28,7 @@ pub fn write_view3d(
     surroundings: &Surroundings<'_>,
     out: &mut impl Write,
 ) -> io::Result<()> {
-    let n = factors.len();
-    let header =
-        format!("fredholm {} 0 {} 0 {n}", env!("CARGO_PKG_VERSION"), u8::from(surroundings.is_closed));
-    writeln!(out, "{header:<HEADER$}")?;
+    writeln!(out, "{}", header(0, factors, surroundings))?;
     line(factors.areas().iter().map(f64::to_string), out)?;
     let digits = match factors.precision() {
         Storage::Single => 8,
@@ -39,6 +38,42 @@ pub fn write_view3d(
         line(row.into_iter().map(|factor| format!("{factor:.digits$}")), out)?;
     }
     line(surroundings.emittances.iter().map(|emittance| format!("{emittance:.3}")), out)
+}
+
+/// Writes F in View3D's binary format (`out = 1`, without emittances in the factors: `emit = 0`): all numbers as `f32`,
+/// little-endian as on the machines that View3D runs on, areas in m².
+///
+/// # Errors
+///
+/// Of the writer; and if the first line has more than its 30 characters, as with 10⁸ faces.
+pub fn write_view3d_binary(
+    factors: &ViewFactors,
+    surroundings: &Surroundings<'_>,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let header = header(1, factors, surroundings);
+    if header.len() != HEADER {
+        let problem = format!("`{header}` is longer than the {HEADER} characters that the format has for it");
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
+    }
+    write!(out, "{header}\r\n")?;
+    singles(factors.areas().iter().copied(), out)?;
+    for row in factors.rows() {
+        singles(row.into_iter(), out)?;
+    }
+    singles(surroundings.emittances.iter().copied(), out)
+}
+
+/// The first line, padded, without its end.
+fn header(format: u8, factors: &ViewFactors, surroundings: &Surroundings<'_>) -> String {
+    let (version, closed) = (env!("CARGO_PKG_VERSION"), u8::from(surroundings.is_closed));
+    let header = format!("fredholm {version} {format} {closed} 0 {}", factors.len());
+    format!("{header:<HEADER$}")
+}
+
+fn singles(numbers: impl Iterator<Item = f64>, out: &mut impl Write) -> io::Result<()> {
+    let bytes: Vec<u8> = numbers.flat_map(|number| (number as f32).to_le_bytes()).collect();
+    out.write_all(&bytes)
 }
 
 fn line(words: impl Iterator<Item = String>, out: &mut impl Write) -> io::Result<()> {

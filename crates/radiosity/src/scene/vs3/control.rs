@@ -6,6 +6,9 @@ use crate::scene::error::Problem;
 /// `prjD`, `maxV`) or its log (`list`) is passed over.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Control {
+    /// The line of the file, the last if there are several; `None` if there is none, and all else is as View3D has it
+    /// where a file says nothing.
+    pub line: Option<usize>,
     /// `eps`, the convergence that is aimed at; View3D takes 10⁻⁴ where a file says nothing.
     pub accuracy: Option<f64>,
     /// `row`, the one row that is asked for, counted from 1 among the surfaces that radiate; `None` for all.
@@ -16,7 +19,7 @@ pub struct Control {
     pub is_enclosure: bool,
     /// `emit`: whether diffuse reflection is to be included (Hottel's script-F).
     pub with_reflection: bool,
-    /// `out`, the format of the output: 0 text, 1 binary, 2 text with more digits.
+    /// `out`, the format of the output: 0 text, 1 binary; 2 is allowed, but View3D writes nothing then.
     pub output: u8,
 }
 

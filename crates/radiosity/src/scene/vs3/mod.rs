@@ -34,9 +34,9 @@ type Vertices = BTreeMap<i64, DVec3>;
 /// The mesh of a file whose unit of length is so many `metres`; `named_at` is where the file's name stands.
 pub(super) fn read(file: &Path, metres: f64, named_at: &Place) -> Result<Mesh, Error> {
     let text = text::read(file, named_at)?;
-    let (is_in_planes, vertices, entries, control_line, control) = Default::default();
+    let (is_in_planes, vertices, entries, control) = Default::default();
     let mesh = Mesh::new(file);
-    let mut reader = Reader { mesh, metres, is_in_planes, vertices, entries, control, control_line };
+    let mut reader = Reader { mesh, metres, is_in_planes, vertices, entries, control };
     for (line, number) in text.lines().zip(1..) {
         let flow = reader.take(line, number);
         if flow.map_err(|problem| problem.at(reader.mesh.place(Spot::Line(number))))?.is_break() {
@@ -54,7 +54,6 @@ struct Reader {
     vertices: Vertices,
     entries: Vec<Entry>,
     control: Control,
-    control_line: usize,
 }
 
 impl Reader {
@@ -105,7 +104,7 @@ impl Reader {
 
     fn take_control(&mut self, data: &str, number: usize) -> Result<(), Problem> {
         let place = self.mesh.place(Spot::Line(number));
-        self.control_line = number;
+        self.control.line = Some(number);
         let words = data.trim_start().split_once(char::is_whitespace).map_or("", |(_, words)| words);
         let mesh = &mut self.mesh;
         self.control.take(words, |word| {
@@ -149,7 +148,8 @@ impl Reader {
             if let Some(asked) = asked.filter(|&asked| asked > radiating) {
                 let problem =
                     format!("`{word}={asked}` asks for a surface that is not there: {radiating} radiate");
-                return Err(Problem::Malformed(problem).at(self.mesh.place(Spot::Line(self.control_line))));
+                let line = self.control.line.unwrap_or_default();
+                return Err(Problem::Malformed(problem).at(self.mesh.place(Spot::Line(line))));
             }
         }
         link::link(&self.entries, &self.vertices, self.metres, &mut self.mesh)?;
