@@ -42,6 +42,7 @@
 //! All lengths are metres, all radiosities W/m², or lm/m² where a scene is photometric ([`scene::Units`]). Surfaces are
 //! diffuse; a polygon emits and reflects from its front and blocks from both sides.
 
+pub mod adaptive;
 pub mod closure;
 pub mod elements;
 pub mod export;

@@ -15,6 +15,7 @@ pub mod exchange;
 mod kinks;
 pub mod lambert;
 mod outline;
+pub(crate) mod outlook;
 pub mod pairs;
 mod partly;
 pub(crate) mod sampled;

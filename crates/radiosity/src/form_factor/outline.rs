@@ -26,6 +26,12 @@ pub(super) enum Inside<'a> {
     All,
 }
 
+impl Default for Outline {
+    fn default() -> Self {
+        Self::EMPTY
+    }
+}
+
 impl Outline {
     pub const EMPTY: Self = Self { x: [0.0; ROOM], y: [0.0; ROOM], z: [0.0; ROOM], count: 0 };
 
@@ -106,6 +112,21 @@ impl Outline {
         }
         let used = (1 << self.count) - 1;
         (above & used, below & used)
+    }
+
+    /// Whether all of it is above planes through the origin, given by their normals, or, because all of it is below one of
+    /// them, nothing is.
+    #[inline(always)]
+    pub fn lies(&self, planes: &[DVec3]) -> Option<bool> {
+        let mut all = true;
+        for plane in planes {
+            let (above, below) = self.sides(*plane);
+            if above == 0 {
+                return Some(false);
+            }
+            all &= below == 0;
+        }
+        all.then_some(true)
     }
 
     /// What planes through the origin, given by their normals, have above all of them; a part is made in `room`.

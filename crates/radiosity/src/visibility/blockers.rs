@@ -61,6 +61,14 @@ impl Blockers {
         blockers
     }
 
+    /// Whether no point of a face, given by its number and itself, is in a body.
+    pub fn is_outside(&self, face: usize, polygon: &Polygon, body: u32) -> bool {
+        let [least, most] = self.bodies[body as usize];
+        let [low, high] = bounds(polygon.vertices().iter().copied());
+        self.body_of_face[face] == Some(body)
+            || (0..3).any(|k| low[k] >= most[k] || high[k] <= least[k])
+    }
+
     fn find_convex(&mut self, on_plane: f64) {
         let mut of_body = vec![Vec::new(); self.bodies.len()];
         for (polygon, body) in self.polygons.iter().zip(&self.body) {

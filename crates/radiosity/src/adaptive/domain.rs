@@ -1,0 +1,102 @@
+//! What does not change while the mesh is refined: faces, their materials, and what hides what.
+
+use super::links::{Coarseness, Descent, Link};
+use super::tree::Tree;
+use crate::form_factor::outlook::{Outlook, Outlooks, Seen, View};
+use crate::polygon::Polygon;
+use crate::scene::{Scene, Surface};
+use fredholm::value::Value;
+use glam::DVec3;
+use std::sync::OnceLock;
+
+/// The faces of a scene, with ρ and E.
+#[derive(Debug)]
+pub struct Domain<'a, V> {
+    faces: &'a [Polygon],
+    reflectance: Vec<V>,
+    emission: Vec<V>,
+    /// The faces that emit; none where they are too many to be looked at one by one.
+    lamps: Vec<u32>,
+    all: Outlooks<'a>,
+    outlooks: Vec<OnceLock<Outlook>>,
+}
+
+/// Lamps are looked at from every point.
+const MOST_LAMPS: usize = 64;
+
+impl<'a, V: Value> Domain<'a, V> {
+    /// `faces` are the polygons of the scene, in its order.
+    pub fn new(scene: &Scene<V>, faces: &'a [Polygon]) -> Self {
+        let of_faces = |value: fn(&Surface<V>) -> V| -> Vec<V> {
+            scene.surfaces.iter().flat_map(|s| s.polygons.iter().map(move |_| value(s))).collect()
+        };
+        let emission = of_faces(|s| s.emission);
+        let is_lamp = |k: &u32| emission[*k as usize] != V::splat(0.0);
+        let lamps: Vec<u32> = (0..faces.len() as u32).filter(is_lamp).take(MOST_LAMPS + 1).collect();
+        Self {
+            faces,
+            reflectance: of_faces(|s| s.reflectance),
+            lamps: if lamps.len() <= MOST_LAMPS { lamps } else { Vec::new() },
+            emission,
+            all: Outlooks::new(faces),
+            outlooks: faces.iter().map(|_| OnceLock::new()).collect(),
+        }
+    }
+
+    pub(super) fn faces(&self) -> &'a [Polygon] {
+        self.faces
+    }
+
+    pub(super) fn reflectance(&self, face: u32) -> V {
+        self.reflectance[face as usize]
+    }
+
+    pub(super) fn emission(&self, face: u32) -> V {
+        self.emission[face as usize]
+    }
+
+    /// Whether lamps are looked at one by one.
+    pub(super) fn has_lamps(&self) -> bool {
+        !self.lamps.is_empty()
+    }
+
+    /// The longest side of the box around the faces, in metres.
+    pub(super) fn extent(&self) -> f64 {
+        let vertices = || self.faces.iter().flat_map(|face| face.vertices());
+        let low = vertices().fold(DVec3::INFINITY, |low, v| low.min(*v));
+        vertices().fold(0.0, |extent, v| extent.max((*v - low).max_element()))
+    }
+
+    /// What the points of a face see.
+    fn outlook(&self, face: u32) -> &Outlook {
+        self.outlooks[face as usize].get_or_init(|| self.all.from(face as usize))
+    }
+
+    /// The parts of the tree that a point of a face sees, and their form factors.
+    pub(super) fn links(
+        &self,
+        tree: &Tree,
+        coarseness: Coarseness<'_>,
+        (face, point): (u32, DVec3),
+        view: &mut View,
+    ) -> Vec<Link> {
+        let normal = self.faces[face as usize].normal();
+        Descent { tree, outlook: self.outlook(face), coarseness, point, normal }.links(view)
+    }
+
+    /// The irradiance that arrives at a point of a face straight from the lamps, in W/m².
+    pub(super) fn direct(&self, face: u32, point: DVec3, view: &mut View) -> V {
+        let outlook = self.outlook(face);
+        let mut sum = V::splat(0.0);
+        view.go(outlook, point);
+        for &lamp in &self.lamps {
+            let Ok(k) = outlook.seen.binary_search_by_key(&lamp, |(face, _)| *face) else { continue };
+            let polygon = &self.faces[lamp as usize];
+            if let Seen::Behind(kept) = view.enter(polygon, &outlook.seen[k].1) {
+                sum += self.emission[lamp as usize] * view.factor(polygon, kept.clone());
+                view.leave(&kept);
+            }
+        }
+        sum
+    }
+}

@@ -1,0 +1,104 @@
+//! ‖û − u‖ ≤ ‖(I − A)⁻¹‖ ‖r‖ with the residual r = E + A û − û of the continuous equation, in the mean square over all faces.
+//!
+//! r is looked at in points that no cell has for its centre, from which every cell is seen. What cells leave unseen of û
+//! within themselves is told by what becomes of ∫ K û when patches, four times as large, stand for their cells: a third of
+//! the difference, for the error falls with the area. ‖(I − A)⁻¹‖ = 1/(1 − λ) with the λ by which each sweep shrinks the
+//! residual; A is self-adjoint in the norm weighted by 1/ρ.
+
+use super::field::Field;
+use super::links::{Coarseness, gathered};
+use super::refine::square;
+use fredholm::relax::Report;
+use fredholm::value::Value;
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// What the error of a field is made of: in the mean square over all faces, relative to the mean square of the light that
+/// they reflect.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bound {
+    /// Of the mesh: what is between the cells, and within them.
+    pub discretisation: f64,
+    /// Of the form factors: parts of the scene that are seen as one.
+    pub form_factors: f64,
+    /// Of the iteration, which was stopped.
+    pub iteration: f64,
+}
+
+impl Bound {
+    /// All of it.
+    pub fn total(&self) -> f64 {
+        self.discretisation + self.form_factors + self.iteration
+    }
+}
+
+/// Points in which the residual is looked at.
+const SAMPLES: usize = 96;
+
+/// The bound of a field, from its residual and from that of its cells' equations.
+pub(super) fn bound<V: Value>(field: &Field<'_, V>, report: &Report) -> Bound {
+    let scale = field.scale();
+    if scale == 0.0 {
+        return Bound::default();
+    }
+    let patches = of_patches(field);
+    let look = |view: &mut _, (face, point): (u32, DVec3)| {
+        let rho = field.domain.reflectance(face);
+        let links = field.domain.links(&field.tree, Coarseness::CELLS, (face, point), view);
+        let direct = links.iter().fold(V::splat(0.0), |sum, link| {
+            sum + field.domain.emission(field.tree.node(link.node).face) * f64::from(link.factor)
+        });
+        let seen = gathered(&links, &field.radiosity);
+        let coarse = field.gathered(face, point, view);
+        let unseen = square(rho * (seen - gathered(&links, &patches)));
+        let linked = square(rho * (seen + direct - coarse));
+        [square(rho * (coarse - field.irradiance_with(face, point, view))), linked, unseen]
+    };
+    let squares: Vec<[f64; 3]> =
+        points(field).into_par_iter().map_init(Default::default, look).collect();
+    let mean = |k: usize| (squares.iter().map(|s| s[k]).sum::<f64>() / squares.len() as f64).sqrt();
+    let inverse = 1.0 / (1.0 - contraction(report)) / scale;
+    Bound {
+        discretisation: inverse * (mean(0) + mean(2) / 3.0),
+        form_factors: inverse * mean(1),
+        iteration: inverse * report.residual,
+    }
+}
+
+/// The radiosity with that of patches in place of their cells'.
+fn of_patches<V: Value>(field: &Field<'_, V>) -> Vec<V> {
+    let mut values = field.radiosity.clone();
+    for patch in field.tree.patches() {
+        for part in field.tree.node(patch).parts.clone() {
+            values[part as usize] = field.radiosity[patch as usize];
+        }
+    }
+    values
+}
+
+/// By how much the last sweep made the residual smaller.
+fn contraction(report: &Report) -> f64 {
+    match report.residuals.as_slice() {
+        [.., before, last] if *before > 0.0 => (last / before).min(0.9999),
+        _ => 0.0,
+    }
+}
+
+/// Points spread evenly over all faces.
+fn points<V: Value>(field: &Field<'_, V>) -> Vec<(u32, DVec3)> {
+    let faces = field.domain.faces();
+    let area: f64 = faces.iter().map(|face| face.area()).sum();
+    let (mut face, mut end) = (0, faces[0].area());
+    (0..SAMPLES)
+        .map(|k| {
+            let k = k as f64 + 0.5;
+            while end < k / SAMPLES as f64 * area && face + 1 < faces.len() {
+                face += 1;
+                end += faces[face].area();
+            }
+            // Multiples of the powers of the plastic number's inverse.
+            let [s, t] = [0.754_877_666_246_693, 0.569_840_290_998_053].map(|step| (k * step).fract());
+            (face as u32, faces[face].point(s, t))
+        })
+        .collect()
+}

@@ -1,0 +1,148 @@
+//! û(x) = E + ρ (D(x) + H(x)): D straight from lamps, at x itself; H between the cells of a patch where it is smooth.
+
+use super::domain::Domain;
+use super::error::Bound;
+use super::links::{Coarseness, Link, gathered};
+use super::refine::square;
+use super::tree::Tree;
+use crate::form_factor::outlook::View;
+use crate::polygon::Polygon;
+use fredholm::value::Value;
+use glam::DVec3;
+
+/// The answer: light at any point of any face, with its error.
+#[derive(Debug)]
+pub struct Field<'a, V> {
+    pub(super) domain: &'a Domain<'a, V>,
+    pub(super) tree: Tree,
+    /// The mean of H over each node, in W/m².
+    pub(super) smooth: Vec<V>,
+    /// The mean of the reflected radiosity û − E, and how far it is from that mean.
+    pub(super) radiosity: Vec<V>,
+    pub(super) variation: Vec<f64>,
+    /// The square of the residual in the middle of each patch.
+    pub(super) residuals: Vec<f64>,
+    /// Patches on which H is not smooth, and is found at x itself.
+    pub(super) rough: Vec<bool>,
+    /// The irradiance that a link may be wrong by, in W/m², and how many links there are.
+    pub(super) tolerance: f64,
+    pub(super) links: usize,
+    pub(super) bound: Bound,
+}
+
+/// A patch of the mesh that the answer stands on.
+#[derive(Clone, Debug)]
+pub struct Part<V> {
+    /// The patch.
+    pub polygon: Polygon,
+    /// Which face it is a part of.
+    pub face: u32,
+    /// The mean radiosity, in W/m².
+    pub radiosity: V,
+    /// The mean irradiance, in W/m².
+    pub irradiance: V,
+}
+
+impl<V: Value> Field<'_, V> {
+    /// The radiosity û at a point of a face, in W/m².
+    pub fn radiosity(&self, face: u32, point: DVec3) -> V {
+        self.domain.emission(face) + self.domain.reflectance(face) * self.irradiance(face, point)
+    }
+
+    /// The irradiance D + H at a point of a face, in W/m².
+    pub fn irradiance(&self, face: u32, point: DVec3) -> V {
+        self.irradiance_with(face, point, &mut View::default())
+    }
+
+    /// The error of the radiosity, as the residual of the equation tells it.
+    pub fn bound(&self) -> Bound {
+        self.bound
+    }
+
+    /// How many cells the mesh has, and how many links they have.
+    pub fn size(&self) -> [usize; 2] {
+        [self.tree.cells().count(), self.links]
+    }
+
+    /// The mesh, face by face.
+    pub fn parts(&self) -> Vec<Part<V>> {
+        let mut patches: Vec<u32> = self.tree.patches().collect();
+        patches.sort_by_key(|&patch| self.tree.node(patch).face);
+        let part = |patch: u32| {
+            let node = self.tree.node(patch);
+            let (rho, radiosity) = (self.domain.reflectance(node.face), self.radiosity[patch as usize]);
+            // H = (û − E)/ρ, cell by cell where ρ is not 0.
+            let divided = radiosity.zip(rho, |b, rho| if rho > 0.0 { b / rho } else { 0.0 });
+            let black = rho.channels().contains(&0.0);
+            let irradiance = if black { self.mean_irradiance(patch) } else { divided };
+            let radiosity = self.domain.emission(node.face) + radiosity;
+            Part { polygon: node.polygon.clone(), face: node.face, radiosity, irradiance }
+        };
+        patches.into_iter().map(part).collect()
+    }
+
+    fn mean_irradiance(&self, patch: u32) -> V {
+        let node = self.tree.node(patch);
+        let mut view = View::default();
+        node.parts.clone().fold(V::splat(0.0), |sum, cell| {
+            let cell = self.tree.node(cell);
+            let share = cell.area / node.area;
+            sum + self.irradiance_with(cell.face, cell.polygon.centroid(), &mut view) * share
+        })
+    }
+
+    /// The root of the mean square of the reflected radiosity, in W/m².
+    pub(super) fn scale(&self) -> f64 {
+        let (mut sum, mut area) = (0.0, 0.0);
+        for cell in self.tree.cells() {
+            let node = self.tree.node(cell);
+            sum += node.area * square(self.radiosity[cell as usize]);
+            area += node.area;
+        }
+        (sum / area).sqrt()
+    }
+
+    pub(super) fn irradiance_with(&self, face: u32, point: DVec3, view: &mut View) -> V {
+        let patch = self.tree.patch_at(face, point);
+        if self.rough[patch as usize] {
+            return self.gathered(face, point, view);
+        }
+        self.domain.direct(face, point, view) + self.interpolated(patch, point)
+    }
+
+    /// D + H at the point itself.
+    pub(super) fn gathered(&self, face: u32, point: DVec3, view: &mut View) -> V {
+        let coarseness = Coarseness { variation: &self.variation, tolerance: self.tolerance };
+        let links: Vec<Link> = self.domain.links(&self.tree, coarseness, (face, point), view);
+        let direct = links.iter().fold(V::splat(0.0), |sum, link| {
+            sum + self.domain.emission(self.tree.node(link.node).face) * f64::from(link.factor)
+        });
+        direct + gathered(&links, &self.radiosity)
+    }
+
+    /// E + A û − û in the middle of a patch, which is the centre of no cell, in W/m².
+    pub(super) fn residual(&self, patch: u32, view: &mut View) -> V {
+        let node = self.tree.node(patch);
+        let point = node.polygon.point(0.5, 0.5);
+        let between = self.domain.direct(node.face, point, view) + self.interpolated(patch, point);
+        self.domain.reflectance(node.face) * (self.gathered(node.face, point, view) - between)
+    }
+
+    /// H between the centres of a patch's cells: bilinear, or linear on a triangle.
+    pub(super) fn interpolated(&self, patch: u32, point: DVec3) -> V {
+        let node = self.tree.node(patch);
+        let at = node.local(point);
+        let first = node.parts.start as usize;
+        let [a, b, c, d] = [0, 1, 2, 3].map(|k| self.smooth[first + k]);
+        if node.polygon.vertices().len() == 4 {
+            // The centres are at ¼ and ¾.
+            let (s, t) = (2.0 * at.x - 0.5, 2.0 * at.y - 0.5);
+            a * ((1.0 - s) * (1.0 - t)) + b * (s * (1.0 - t)) + c * (s * t) + d * ((1.0 - s) * t)
+        } else {
+            // Through those at the corners, whose centres have shares of ⅔ and ⅙, and moved to the mean of all four.
+            let share = |k: f64| 2.0 * k - 1.0 / 3.0;
+            let moved = (d - (a + b + c) * (1.0 / 3.0)) * 0.25;
+            a * share(1.0 - at.x - at.y) + b * share(at.x) + c * share(at.y) + moved
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! (F u)_i = Σ_links F(x_i, P) · mean of u over P: collocation at the centres of cells, in which what is far away, or much
+//! alike, is one part.
+
+use super::tree::Tree;
+use crate::form_factor::outlook::{Outlook, Seen, View};
+use fredholm::operator::{Matrix, Operator};
+use fredholm::value::Value;
+use glam::DVec3;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+use std::ops::Range;
+
+/// A part of the scene and how much of the light at a point comes from it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Link {
+    pub node: u32,
+    pub factor: f32,
+}
+
+/// When a part is seen as one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Coarseness<'a> {
+    /// How far the radiosity on a part is from its mean, of each node, in W/m².
+    pub variation: &'a [f64],
+    /// The irradiance that a link may be wrong by, in W/m².
+    pub tolerance: f64,
+}
+
+impl Coarseness<'_> {
+    /// Down to the cells.
+    pub const CELLS: Self = Self { variation: &[], tolerance: 0.0 };
+}
+
+/// The parts of the scene that a point of a face sees.
+pub(super) struct Descent<'a> {
+    pub tree: &'a Tree,
+    pub outlook: &'a Outlook,
+    pub coarseness: Coarseness<'a>,
+    pub point: DVec3,
+    pub normal: DVec3,
+}
+
+impl Descent<'_> {
+    /// Their links.
+    pub fn links(&self, view: &mut View) -> Vec<Link> {
+        let mut links = Vec::new();
+        view.go(self.outlook, self.point);
+        for (face, hiders) in &self.outlook.seen {
+            let polygon = &self.tree.node(*face).polygon;
+            if polygon.height_of(self.point) > 0.0
+                && let Seen::Behind(kept) = view.enter(polygon, hiders)
+            {
+                self.descend(*face, &kept, view, &mut links);
+                view.leave(&kept);
+            }
+        }
+        links
+    }
+
+    fn descend(&self, node: u32, hiders: &Range<usize>, view: &mut View, links: &mut Vec<Link>) {
+        let whole = self.tree.node(node);
+        if self.tree.is_cell(node) || self.is_one(node) {
+            let factor = view.factor(&whole.polygon, hiders.clone());
+            if factor > 0.0 {
+                links.push(Link { node, factor: factor as f32 });
+            }
+            return;
+        }
+        for part in whole.parts.clone() {
+            if let Seen::Behind(kept) = view.enter_further(&self.tree.node(part).polygon, hiders.clone()) {
+                self.descend(part, &kept, view, links);
+                view.leave(&kept);
+            }
+        }
+    }
+
+    /// Whether what is on it may be taken for its mean.
+    fn is_one(&self, node: u32) -> bool {
+        let Some(variation) = self.coarseness.variation.get(node as usize) else { return false };
+        let part = self.tree.node(node);
+        let away = part.polygon.centroid() - self.point;
+        let distance = away.length();
+        let near = part.diameter / distance;
+        // Nearer than its size its factor may be all there is.
+        let factor = if near > 1.0 {
+            1.0
+        } else {
+            part.area * away.dot(self.normal).abs() * away.dot(part.polygon.normal()).abs()
+                / (PI * distance.powi(4))
+        };
+        factor * variation * near.min(1.0) <= self.coarseness.tolerance
+    }
+}
+
+/// The links of all cells.
+#[derive(Debug)]
+pub(super) struct Links<'a> {
+    pub tree: &'a Tree,
+    /// The cells, in the order of the unknowns.
+    pub cells: &'a [u32],
+    pub links: Vec<Vec<Link>>,
+}
+
+/// The mean over every node of what is given for every cell.
+pub(super) fn means<V: Value>(tree: &Tree, cells: &[u32], u: &[V]) -> Vec<V> {
+    let mut means = vec![V::splat(0.0); tree.nodes.len()];
+    cells.iter().zip(u).for_each(|(cell, value)| means[*cell as usize] = *value);
+    for (k, node) in tree.nodes.iter().enumerate().rev().filter(|(_, node)| !node.parts.is_empty()) {
+        let sum = node.parts.clone().fold(V::splat(0.0), |sum, part| {
+            sum + means[part as usize] * tree.node(part).area
+        });
+        means[k] = sum * (1.0 / node.area);
+    }
+    means
+}
+
+/// Σ_links F u.
+pub(super) fn gathered<V: Value>(links: &[Link], means: &[V]) -> V {
+    links.iter().fold(V::splat(0.0), |sum, link| sum + means[link.node as usize] * f64::from(link.factor))
+}
+
+impl Matrix for Links<'_> {
+    fn dim(&self) -> usize {
+        self.cells.len()
+    }
+
+    /// A planar cell does not see itself.
+    fn diagonal(&self, _: usize) -> f64 {
+        0.0
+    }
+}
+
+impl<V: Value> Operator<V> for Links<'_> {
+    fn apply(&self, u: &[V], out: &mut [V]) {
+        let means = means(self.tree, self.cells, u);
+        out.par_iter_mut().zip(&self.links).for_each(|(value, links)| *value = gathered(links, &means));
+    }
+}

@@ -1,0 +1,100 @@
+//! û(x) = E(x) + ρ(x) ∫ K(x, y) û(y) dy to an accuracy that is asked for: the mesh, the form factors and the iteration are
+//! found on the way, and the residual of this very equation says when to stop.
+//!
+//! The method is collocation, P_n u = u at the centres of cells (paper, §1.3.2 and §3.2.1), with Nyström's interpolant (1.29)
+//! for an answer. Three things make it fast:
+//!
+//! - F(x, P) is exact, for what hides P from x is clipped away; a shadow's edge needs no rays and, in the light that comes
+//!   straight from lamps, no mesh;
+//! - what is far away or much alike is seen as one ([`links`]), so that there are far fewer factors than pairs of cells;
+//! - cells are cut where the residual between them is large, and nowhere else ([`refine`]).
+//!
+//! ```
+//! use radiosity::adaptive::{Domain, Request, solve};
+//! use radiosity::scene::cornell_box;
+//!
+//! let scene = cornell_box();
+//! let faces = scene.polygons();
+//! let domain = Domain::new(&scene, &faces);
+//! let field = solve(&domain, &Request { accuracy: 0.05, ..Request::default() }, |_| true);
+//! // In the mean square over all surfaces, of the light that they reflect:
+//! assert!(field.bound().total() <= 0.05);
+//! // It is a function: here is the middle of the first polygon, the floor.
+//! let [red, ..] = field.radiosity(0, faces[0].centroid()).0;
+//! assert!(red > 0.2 && red < 0.6);
+//! ```
+
+mod domain;
+mod error;
+mod field;
+mod links;
+mod refine;
+mod round;
+mod tree;
+
+pub use domain::Domain;
+pub use error::Bound;
+pub use field::{Field, Part};
+
+use fredholm::value::Value;
+use refine::{marked, refined};
+use round::Mesh;
+
+/// What is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Request {
+    /// The error that the radiosity may have, in the mean square over all surfaces, relative to the mean square of the light
+    /// that they reflect.
+    pub accuracy: f64,
+    /// The most cells; where they do not do, the answer is the best one that they give.
+    pub most_cells: usize,
+}
+
+impl Default for Request {
+    /// A hundredth, with a quarter of a million cells: some gigabyte at most.
+    fn default() -> Self {
+        Self { accuracy: 0.01, most_cells: 250_000 }
+    }
+}
+
+/// A mesh that has been solved on the way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Round {
+    /// How many cells it has.
+    pub cells: usize,
+    /// How many form factors were computed for them.
+    pub links: usize,
+    /// The error of the field on it.
+    pub bound: Bound,
+}
+
+/// Rounds after which a mesh is not refined any further: each has half as many cells again, or more.
+const MOST_ROUNDS: usize = 40;
+
+/// Solves the radiosity equation to an accuracy.
+///
+/// `observe` is told of every round and says whether to go on. [`Field::bound`] tells whether the accuracy was reached: it
+/// may not be, where the cells or the patience do not do.
+pub fn solve<'a, V: Value>(
+    domain: &'a Domain<'a, V>,
+    request: &Request,
+    mut observe: impl FnMut(&Round) -> bool,
+) -> Field<'a, V> {
+    let mut mesh = Mesh::first(domain);
+    let mut rounds = 0;
+    loop {
+        rounds += 1;
+        let field = mesh.solved(domain, request.accuracy);
+        let Field { bound, ref tree, .. } = field;
+        let go_on = observe(&Round { cells: tree.cells().count(), links: field.links, bound });
+        let enough = bound.total() <= request.accuracy || rounds == MOST_ROUNDS;
+        if enough || !go_on {
+            return field;
+        }
+        let marked = marked(&field, request);
+        if tree.cells().count() + refine::NEW * marked.len() > request.most_cells {
+            return field;
+        }
+        mesh = refined(field, &marked, request.accuracy);
+    }
+}

@@ -1,0 +1,134 @@
+//! The mesh of the domain as a forest: faces, cut into quarters where the solution asks for it.
+
+use crate::patches::inverse_bilinear;
+use crate::polygon::Polygon;
+use glam::{DVec2, DVec3};
+use std::ops::Range;
+
+/// A part of a face: the face itself, or a quarter of a part.
+#[derive(Clone, Debug)]
+pub(super) struct Node {
+    pub polygon: Polygon,
+    pub area: f64,
+    pub diameter: f64,
+    /// The face that it is a part of.
+    pub face: u32,
+    /// Its parts, none of a cell.
+    pub parts: Range<u32>,
+}
+
+/// Faces first, and parts always behind what they are parts of.
+#[derive(Clone, Debug)]
+pub(super) struct Tree {
+    pub nodes: Vec<Node>,
+    }
+
+impl Tree {
+    /// The faces, each in parts that are about as long as wide, and these in cells.
+    pub fn new(faces: &[Polygon], size: f64) -> Self {
+        let node = |(polygon, k): (&Polygon, u32)| Node::new(polygon.clone(), k);
+        let mut tree = Self { nodes: faces.iter().zip(0..).map(node).collect() };
+        for face in 0..faces.len() as u32 {
+            let pieces = strips(&faces[face as usize]);
+            let parts = if pieces.len() > 1 { tree.divide(face, pieces) } else { face..face + 1 };
+            parts.for_each(|part| tree.quarter_down_to(part, size));
+        }
+        tree
+    }
+
+    fn quarter_down_to(&mut self, node: u32, size: f64) {
+        let parts = self.quarter(node);
+        if self.node(node).diameter > size {
+            parts.for_each(|part| self.quarter_down_to(part, size));
+        }
+    }
+
+    pub fn node(&self, node: u32) -> &Node {
+        &self.nodes[node as usize]
+    }
+
+    /// Cuts a cell in four.
+    pub fn quarter(&mut self, node: u32) -> Range<u32> {
+        let quarters = self.node(node).polygon.quarters();
+        self.divide(node, quarters)
+    }
+
+    fn divide(&mut self, node: u32, pieces: impl IntoIterator<Item = Polygon>) -> Range<u32> {
+        let (face, first) = (self.node(node).face, self.nodes.len() as u32);
+        self.nodes.extend(pieces.into_iter().map(|piece| Node::new(piece, face)));
+        let parts = first..self.nodes.len() as u32;
+        self.nodes[node as usize].parts = parts.clone();
+        parts
+    }
+
+    /// Whether it has no parts.
+    pub fn is_cell(&self, node: u32) -> bool {
+        self.node(node).parts.is_empty()
+    }
+
+    /// Whether its parts are cells.
+    pub fn is_patch(&self, node: u32) -> bool {
+        let parts = &self.node(node).parts;
+        !parts.is_empty() && self.is_cell(parts.start)
+    }
+
+    /// All nodes without parts.
+    pub fn cells(&self) -> impl Iterator<Item = u32> + '_ {
+        (0..self.nodes.len() as u32).filter(|&node| self.is_cell(node))
+    }
+
+    /// All nodes whose parts are cells.
+    pub fn patches(&self) -> impl Iterator<Item = u32> + '_ {
+        (0..self.nodes.len() as u32).filter(|&node| self.is_patch(node))
+    }
+
+    /// The patch of a face that a point lies on, the nearest for a point outside.
+    pub fn patch_at(&self, face: u32, point: DVec3) -> u32 {
+        let mut node = face;
+        while !self.is_patch(node) {
+            let nearest = |part: &u32| outside(&self.node(*part).polygon, point);
+            let parts = self.node(node).parts.clone();
+            node = parts.min_by(|a, b| nearest(a).total_cmp(&nearest(b))).unwrap_or(node);
+        }
+        node
+    }
+}
+
+impl Node {
+    fn new(polygon: Polygon, face: u32) -> Self {
+        Self { area: polygon.area(), diameter: polygon.diameter(), polygon, face, parts: 0..0 }
+    }
+
+    /// Where a point lies in it: (s, t) of the unit square, or the shares of the second and third corner.
+    pub fn local(&self, point: DVec3) -> DVec2 {
+        inverse_bilinear(&self.polygon, point)
+    }
+}
+
+/// How far a point of the plane is outside of a polygon; negative inside.
+fn outside(polygon: &Polygon, point: DVec3) -> f64 {
+    let v = polygon.vertices();
+    let beyond = |k: usize| {
+        let (a, b) = (v[k], v[(k + 1) % v.len()]);
+        -(b - a).cross(point - a).dot(polygon.normal()) / a.distance(b)
+    };
+    (0..v.len()).map(beyond).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// A quadrilateral longer than wide in as many pieces side by side as make them square.
+fn strips(polygon: &Polygon) -> Vec<Polygon> {
+    let &[a, b, c, d] = polygon.vertices() else { return vec![polygon.clone()] };
+    let length = 0.5 * (a.distance(b) + c.distance(d));
+    let width = 0.5 * (b.distance(c) + d.distance(a));
+    let (start, end, count) = if length > width {
+        ([a, d], [b, c], (length / width).round() as usize)
+    } else {
+        ([b, a], [c, d], (width / length).round() as usize)
+    };
+    let at = |k: usize| [0, 1].map(|side| start[side].lerp(end[side], k as f64 / count as f64));
+    let piece = |k: usize| {
+        let ([p, s], [q, r]) = (at(k), at(k + 1));
+        Polygon::quadrilateral(p, q, r, s)
+    };
+    (0..count.max(1)).map(piece).collect()
+}
