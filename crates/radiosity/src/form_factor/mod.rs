@@ -12,13 +12,16 @@
 
 pub mod contour;
 pub mod exchange;
+mod hider;
 mod kinks;
 pub mod lambert;
 mod outline;
 pub mod pairs;
 mod partly;
+mod piece;
 pub(crate) mod sampled;
 mod shadow;
+mod sight;
 
 use crate::kernel::{Lambertian, SurfacePoint};
 use crate::patches::{Patches, Strip};

@@ -1,9 +1,11 @@
 //! What hides, as few convex polygons: the faces of one plane that a mesh cuts a wall into cast one shadow.
 //!
 //! Faces that share an edge and a plane are put together where that makes a convex polygon. Faces that close a body are
-//! known to: from without it, those that are seen from the front hide all that the body hides.
+//! known to: from without it, those that are seen from the front hide all that the body hides. A convex body hides what
+//! is inside of its outline ([`Solid`]).
 
 use super::facet::ON_PLANE;
+use super::solid::{Plane, Ridge, Solid};
 use crate::polygon::Polygon;
 use glam::DVec3;
 use std::collections::HashMap;
@@ -17,8 +19,12 @@ pub(crate) struct Blockers {
     pub body: Vec<Option<u32>>,
     /// The boxes around the bodies.
     pub bodies: Vec<[DVec3; 2]>,
+    /// The polygons of each body.
+    pub polygons_of: Vec<Vec<u32>>,
     /// Whether each body is convex, with its fronts outside: then what is seen of it from the front covers no place twice.
     pub is_convex: Vec<bool>,
+    /// Each convex body that has not too many sides.
+    pub solids: Vec<Option<Solid>>,
     /// The body of each face.
     pub body_of_face: Vec<Option<u32>>,
 }
@@ -33,49 +39,60 @@ impl Blockers {
         let mut blockers = Self {
             polygons: Vec::new(),
             body: Vec::new(),
-            is_convex: vec![false; bodies.len()],
+            polygons_of: vec![Vec::new(); bodies.len()],
+            is_convex: Vec::new(),
+            solids: Vec::new(),
             bodies,
             body_of_face,
         };
-        let mut outlines = Vec::new();
+        let mut sides = vec![Vec::new(); blockers.bodies.len()];
         for plane in mesh.planes() {
-            let body = blockers.body_of_face[plane[0] as usize];
-            let whole = mesh.outline(&plane).map(|outline| mesh.without_straight_corners(&outline));
-            let parts =
-                match whole.filter(|outline| mesh.is_convex(outline, faces[plane[0] as usize].normal())) {
-                    Some(outline) => fan(&outline),
-                    None => plane.iter().map(|&face| mesh.corners[face as usize].clone()).collect(),
-                };
+            let (body, normal) =
+                (blockers.body_of_face[plane[0] as usize], faces[plane[0] as usize].normal());
+            let outline = mesh.outline(&plane).map(|outline| mesh.without_straight_corners(&outline));
+            let whole = outline.filter(|outline| mesh.is_convex(outline, normal));
+            let parts = match &whole {
+                Some(outline) => fan(outline),
+                None => plane.iter().map(|&face| mesh.corners[face as usize].clone()).collect(),
+            };
+            if let Some(body) = body {
+                let first = blockers.polygons.len();
+                blockers.polygons_of[body as usize].extend((first..first + parts.len()).map(|k| k as u32));
+                sides[body as usize].push(whole);
+            }
             blockers.body.resize(blockers.body.len() + parts.len(), body);
-            outlines.extend(parts);
+            blockers.polygons.extend(parts.iter().map(|part| mesh.polygon(part)));
         }
-        let at = |v: u32| mesh.vertices[v as usize];
-        blockers.polygons = outlines
-            .iter()
-            .map(|outline| match *outline.as_slice() {
-                [a, b, c, d] => Polygon::quadrilateral(at(a), at(b), at(c), at(d)),
-                _ => Polygon::triangle(at(outline[0]), at(outline[1]), at(outline[2])),
-            })
-            .collect();
-        blockers.find_convex(mesh.on_plane);
+        let solid =
+            |sides: Vec<Option<Vec<u32>>>| mesh.solid(&sides.into_iter().collect::<Option<Vec<_>>>()?);
+        let solids = sides.into_iter().map(solid);
+        for solid in solids {
+            blockers.is_convex.push(solid.is_some());
+            blockers.solids.push(solid.filter(|solid| solid.planes.len() <= MOST_SIDES));
+        }
         blockers
     }
 
-    fn find_convex(&mut self, on_plane: f64) {
-        let mut of_body = vec![Vec::new(); self.bodies.len()];
-        for (polygon, body) in self.polygons.iter().zip(&self.body) {
-            if let Some(body) = body {
-                of_body[*body as usize].push(polygon);
-            }
-        }
-        for (polygons, is_convex) in of_body.iter().zip(&mut self.is_convex) {
-            let behind = |plane: &Polygon| {
-                polygons.iter().flat_map(|p| p.vertices()).all(|v| plane.height_of(*v) <= on_plane)
-            };
-            *is_convex = polygons.len() <= MOST_EXAMINED && polygons.iter().all(|plane| behind(plane));
-        }
+    /// Whether no point of a face, by its number, is in a body: their boxes, or a side of the body, tell them apart.
+    pub fn is_outside(&self, face: usize, polygon: &Polygon, body: u32) -> bool {
+        let [least, most] = self.bodies[body as usize];
+        let v = || polygon.vertices().iter();
+        let beyond = |plane: &Plane| v().all(|v| plane.height_of(*v) >= 0.0);
+        self.body_of_face[face] == Some(body)
+            || (0..3).any(|k| v().all(|v| v[k] <= least[k]) || v().all(|v| v[k] >= most[k]))
+            || self.solids[body as usize].as_ref().is_some_and(|solid| solid.planes.iter().any(beyond))
+    }
+
+    /// The polygons that one stands for: those of its body, if that is a [`Solid`].
+    pub fn sides(&self, polygon: u32) -> impl Iterator<Item = u32> + '_ {
+        let body = self.body[polygon as usize].filter(|&body| self.solids[body as usize].is_some());
+        let all = body.map_or(&[][..], |body| &self.polygons_of[body as usize]);
+        body.is_none().then_some(polygon).into_iter().chain(all.iter().copied())
     }
 }
+
+/// A body with more sides than that is looked at side by side: its outline has many edges.
+const MOST_SIDES: usize = 128;
 
 /// Quadrilaterals and a triangle that a convex outline is made of.
 fn fan(outline: &[u32]) -> Vec<Vec<u32>> {
@@ -92,7 +109,7 @@ fn cyclic(outline: &[u32]) -> impl Iterator<Item = Edge> {
     (0..outline.len()).map(|k| (outline[k], outline[(k + 1) % outline.len()]))
 }
 
-/// Every face of a body against every vertex takes time; of one with more faces than that it is not known.
+/// Every side of a body against every vertex takes time; of one with more sides than that it is not known.
 const MOST_EXAMINED: usize = 2000;
 
 /// Faces that know which edges they share.
@@ -209,6 +226,43 @@ impl<'a> Mesh<'a> {
         (outline.len() == next.len()).then_some(outline)
     }
 
+    /// A polygon from the numbers of its three or four corners.
+    fn polygon(&self, corners: &[u32]) -> Polygon {
+        let at = |v: u32| self.vertices[v as usize];
+        match *corners {
+            [a, b, c, d] => Polygon::quadrilateral(at(a), at(b), at(c), at(d)),
+            _ => Polygon::triangle(at(corners[0]), at(corners[1]), at(corners[2])),
+        }
+    }
+
+    /// The body of these sides, if it is convex with its fronts outside.
+    fn solid(&self, sides: &[Vec<u32>]) -> Option<Solid> {
+        let at = |v: u32| self.vertices[v as usize];
+        let mut vertices: Vec<u32> = sides.iter().flatten().copied().collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        let plane = |side: &Vec<u32>| {
+            let normal = self.polygon(&side[..3]).normal();
+            Plane { normal, offset: normal.dot(at(side[0])) }
+        };
+        let planes: Vec<Plane> = sides.iter().map(plane).collect();
+        let behind = |plane: &Plane| vertices.iter().all(|&v| plane.height_of(at(v)) <= self.on_plane);
+        if sides.is_empty() || sides.len() > MOST_EXAMINED || !planes.iter().all(behind) {
+            return None;
+        }
+        let edges = || sides.iter().zip(0..).flat_map(|(side, k)| cyclic(side).map(move |edge| (edge, k)));
+        let side_of: HashMap<Edge, u32> = edges().collect();
+        let mut ridges = Vec::new();
+        for ((u, v), k) in edges() {
+            // An edge that one of its sides has in two pieces is in no outline.
+            let across = *side_of.get(&(v, u))?;
+            if u < v {
+                ridges.push(Ridge { ends: [at(u), at(v)], sides: [k, across] });
+            }
+        }
+        Some(Solid { planes, ridges, vertices: vertices.into_iter().map(at).collect() })
+    }
+
     fn without_straight_corners(&self, outline: &[u32]) -> Vec<u32> {
         let n = outline.len();
         let at = |k: usize| self.vertices[outline[k % n] as usize];
@@ -271,7 +325,9 @@ mod tests {
                 assert!((polygon.area() - 0.16).abs() < 1e-15 && polygon.vertices().len() == 4);
                 assert!((polygon.centroid() - DVec3::splat(0.5)).dot(polygon.normal()) > 0.1);
             }
-            assert!(blockers.body.iter().all(|body| body.is_some()) && blockers.is_convex == [true]);
+            assert!(blockers.body.iter().all(Option::is_some));
+            let [Some(solid)] = blockers.solids.as_slice() else { panic!("a convex body") };
+            assert_eq!((solid.planes.len(), solid.ridges.len(), solid.vertices.len()), (6, 12, 8));
         }
     }
 
