@@ -3,152 +3,123 @@
 //!
 //! Between these lines it is smooth, but for where the edges of two hiders cross before an edge of the polygon.
 
+use super::hider::{Edge, Hider};
 use super::outline::Outline;
-use super::shadow::Hider;
-use crate::polygon::Polygon;
 use glam::DVec3;
 
-/// A segment in the plane of x on which there may be a kink.
+/// An affine function of x.
+#[derive(Clone, Copy, Debug)]
+struct Affine {
+    normal: DVec3,
+    foot: DVec3,
+}
+
+impl Affine {
+    const ZERO: Self = Self { normal: DVec3::ZERO, foot: DVec3::ZERO };
+
+    /// x ↦ det[to − x, from − x, v − x]: on which side of the plane through x and an edge a point is.
+    fn side(from: DVec3, to: DVec3, v: DVec3) -> Self {
+        Self { normal: (from - v).cross(to - v), foot: v }
+    }
+
+    fn at(&self, x: DVec3) -> f64 {
+        self.normal.dot(x - self.foot)
+    }
+}
+
+/// A line in the plane of x on which there may be a kink, where two functions are not negative.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Kink {
-    ends: [DVec3; 2],
-    /// A normal of the segment in the plane of x, of length 1, and where it lies along it.
-    normal: DVec3,
-    offset: f64,
+    line: Affine,
+    within: [Affine; 2],
 }
 
-/// A triangle of the plane of x.
-pub(super) type Cell = [DVec3; 3];
-
-impl Kink {
-    fn new(p: DVec3, q: DVec3, plane: DVec3) -> Option<Self> {
-        let normal = (q - p).cross(plane).normalize_or_zero();
-        (normal != DVec3::ZERO).then(|| Self { ends: [p, q], normal, offset: normal.dot(p) })
-    }
-
-    /// How evenly it cuts a cell: the least height of a corner on the side of one over the greatest on that of two, by
-    /// which their line divides the cell; 0 if it does not reach into it.
-    pub fn cuts(&self, cell: &Cell, plane: DVec3) -> f64 {
-        let heights = cell.map(|v| self.normal.dot(v) - self.offset);
-        let (low, high) = heights.iter().fold((0.0_f64, 0.0_f64), |(l, h), x| (l.min(*x), h.max(*x)));
-        let evenness = (-low).min(high) / (high - low);
-        if evenness.is_nan() || evenness <= LEAST_PART {
-            return 0.0;
-        }
-        let apart = (0..3).any(|k| {
-            let inward = plane.cross(cell[(k + 1) % 3] - cell[k]);
-            self.ends.iter().all(|end| inward.dot(*end - cell[k]) <= 0.0)
-        });
-        if apart { 0.0 } else { evenness }
-    }
-
-    /// The two or three triangles that its line makes of a cell.
-    pub fn divide(&self, cell: &Cell) -> Vec<Cell> {
-        let heights = cell.map(|v| self.normal.dot(v) - self.offset);
-        // The corner that is alone on its side, and the points opposite to it where the line leaves the cell.
-        let alone = (0..3).find(|&k| {
-            let others = [heights[(k + 1) % 3], heights[(k + 2) % 3]];
-            heights[k] != 0.0 && others.iter().all(|h| h * heights[k] <= 0.0)
-        });
-        let Some(k) = alone else { return vec![*cell] };
-        let [a, b, c] = [cell[k], cell[(k + 1) % 3], cell[(k + 2) % 3]];
-        let [h, g, f] = [heights[k], heights[(k + 1) % 3], heights[(k + 2) % 3]];
-        let (ab, ac) = (a.lerp(b, h / (h - g)), a.lerp(c, h / (h - f)));
-        let parts = [[a, ab, ac], [ab, b, c], [ab, c, ac]];
-        parts.into_iter().filter(|[a, b, c]| (*b - *a).cross(*c - *a).length_squared() > 0.0).collect()
-    }
-}
-
-/// A kink nearer to a corner than this part of the cell is of no account.
+/// A kink nearer to a corner than this part of a cell is of no account.
 const LEAST_PART: f64 = 1e-6;
 
-/// All kinks on the plane of `outer` that `hiders` make of `target`.
-pub(super) fn kinks(outer: &Polygon, target: &Outline, hiders: &[Hider]) -> Vec<Kink> {
-    let plane = outer.normal();
-    let reach = 4.0 * outer.diameter();
-    let (middle, rounding) = (outer.centroid(), 1e-9 * reach);
-    let height = |v: DVec3| outer.height_of(v);
+/// A height below this part of the lengths' product is rounding.
+const ROUNDING: f64 = 1e-12;
+
+impl Kink {
+    /// How evenly it cuts a convex cell: the least height of a corner on the side of fewer over the greatest on that of more, by
+    /// which its line divides the cell; 0 if it does not reach into it.
+    pub fn cuts(&self, cell: &[DVec3]) -> f64 {
+        let heights = cell.iter().map(|x| self.line.at(*x));
+        let (low, high) = heights.fold((0.0_f64, 0.0_f64), |(l, h), x| (l.min(x), h.max(x)));
+        let evenness = (-low).min(high) / (high - low);
+        // NaN is where both are 0.
+        if evenness > LEAST_PART && self.within.iter().all(|within| self.reaches(cell, within)) {
+            evenness
+        } else {
+            0.0
+        }
+    }
+
+    /// Whether a function is not negative on all of the line in a cell.
+    fn reaches(&self, cell: &[DVec3], within: &Affine) -> bool {
+        if within.normal == DVec3::ZERO {
+            return true;
+        }
+        let mut before = cell[cell.len() - 1];
+        let mut height = self.line.at(before);
+        cell.iter().any(|&x| {
+            let h = self.line.at(x);
+            let crosses = (h < 0.0) != (height < 0.0);
+            // The function at the crossing, times a number above 0.
+            let there = (within.at(before) * h - within.at(x) * height) * (h - height).signum();
+            (before, height) = (x, h);
+            crosses && there > 0.0
+        })
+    }
+
+    /// The height of a point over its line.
+    pub fn height_of(&self, x: DVec3) -> f64 {
+        self.line.at(x)
+    }
+}
+
+/// All kinks that `hiders` make of `target` and that divide the convex polygon with these corners.
+pub(super) fn kinks(corners: &[DVec3], target: &Outline, hiders: &[Hider], reach: f64) -> Vec<Kink> {
     let mut kinks = Vec::new();
-    let mut add = |p: Option<DVec3>, q: Option<DVec3>| {
-        if let (Some(p), Some(q)) = (p, q) {
-            kinks.extend(Kink::new(p, q, plane).filter(|kink| {
-                let side = |v: &DVec3| kink.normal.dot(*v) > kink.offset;
-                let first = side(&outer.vertices()[0]);
-                outer.vertices().iter().any(|v| side(v) != first)
-            }));
+    let mut add = |line: Affine, within: [Affine; 2]| {
+        let kink = Kink { line, within };
+        let rounding = ROUNDING * reach * reach * reach;
+        if corners.iter().any(|x| line.at(*x).abs() > rounding) && kink.cuts(corners) > 0.0 {
+            kinks.push(kink);
         }
     };
-    for (index, hider) in hiders.iter().enumerate() {
-        let outer_edge = |(p, q): (DVec3, DVec3)| {
-            let on_plane = height(p).abs() <= rounding && height(q).abs() <= rounding;
-            !on_plane && !is_inner(hiders, index, p, q)
+    for hider in hiders {
+        let neighbour = |joins: &dyn Fn(&Edge) -> bool| hider.edges().iter().find(|edge| joins(edge));
+        // Seen from both sides it has no inner side.
+        let side = |edge: Option<&Edge>, v: DVec3| match edge {
+            Some(edge) if hider.straddled.is_none() => Affine::side(edge.from, edge.to, v),
+            _ => Affine::ZERO,
         };
-        let count = hider.outline.len();
-        let is_outer: Vec<bool> = ring(&hider.outline).map(outer_edge).collect();
-        for (k, (o, next)) in ring(&hider.outline).enumerate() {
-            if is_outer[k] {
+        for edge in hider.edges() {
+            let before = neighbour(&|other| other.to == edge.from);
+            let after = neighbour(&|other| other.from == edge.to);
+            if !edge.inner {
                 for v in target.vertices() {
-                    let [p, q] = projected_edge([o, next], height, height(v));
-                    add(through(v, p, height), through(v, q, height));
+                    add(Affine::side(edge.from, edge.to, v), [side(before, v), side(after, v)]);
                 }
             }
-            if is_outer[k] || is_outer[(k + count - 1) % count] {
-                for (v, w) in ring(target) {
-                    let [p, q] = projected_edge([v, w], |v| -height(v), -height(o));
-                    add(through(p, o, height), through(q, o, height));
-                }
+            if after.is_some_and(|after| !(edge.inner && after.inner)) {
+                vertex_kinks(edge.to, target, &mut add);
             }
         }
-        if hider.straddled {
-            let along = plane.cross(hider.normal).normalize_or_zero();
-            let across = along.cross(plane);
-            let foot = middle - across * (hider.height_of(middle) / hider.normal.dot(across));
-            add(Some(foot - along * reach), Some(foot + along * reach));
+        if let Some(plane) = hider.straddled {
+            let line = Affine { normal: plane.normal * reach * reach, foot: plane.normal * plane.offset };
+            add(line, [Affine::ZERO; 2]);
         }
     }
     kinks
 }
 
-/// Whether an edge lies inside of the shadow of two hiders, seen from all points from the same side.
-fn is_inner(hiders: &[Hider], index: usize, p: DVec3, q: DVec3) -> bool {
-    let hider = &hiders[index];
-    !hider.straddled
-        && hiders.iter().enumerate().any(|(other, candidate)| {
-            other != index
-                && !candidate.straddled
-                && candidate.in_front == hider.in_front
-                && has_edge(&candidate.outline, q, p)
-        })
-}
-
-fn has_edge(outline: &Outline, p: DVec3, q: DVec3) -> bool {
-    let near = 1e-18 * p.distance_squared(q);
-    ring(outline).any(|(v, w)| v.distance_squared(p) <= near && w.distance_squared(q) <= near)
-}
-
-/// The edges of an outline.
-fn ring(outline: &Outline) -> impl Iterator<Item = (DVec3, DVec3)> {
-    let count = outline.len();
-    (0..count).map(move |k| (outline.vertex(k), outline.vertex(if k + 1 == count { 0 } else { k + 1 })))
-}
-
-/// The part of an edge that is lower than a height, or nearly: what is as high has no shadow at a finite place.
-fn projected_edge(ends: [DVec3; 2], height: impl Fn(DVec3) -> f64, top: f64) -> [DVec3; 2] {
-    let heights = ends.map(&height);
-    let limit = top - 1e-3 * (heights[0] - heights[1]).abs();
-    let cut = |k: usize| {
-        let (h, other) = (heights[k], heights[1 - k]);
-        if h > limit && other < limit {
-            ends[1 - k].lerp(ends[k], (limit - other) / (h - other))
-        } else {
-            ends[k]
-        }
-    };
-    [cut(0), cut(1)]
-}
-
-/// Where the ray from a target point v through a hider's point o meets the plane of height 0, if it does.
-fn through(v: DVec3, o: DVec3, height: impl Fn(DVec3) -> f64) -> Option<DVec3> {
-    let (from, to) = (height(v), height(o));
-    (to < from && from > 0.0).then(|| v + (o - v) * (from / (from - to)))
+/// Where a hider's vertex is before an edge of the target.
+fn vertex_kinks(o: DVec3, target: &Outline, add: &mut impl FnMut(Affine, [Affine; 2])) {
+    let count = target.len();
+    let side = |k: usize| Affine::side(target.vertex(k % count), target.vertex((k + 1) % count), o);
+    for k in 0..count {
+        add(side(k), [side(k + count - 1), side(k + 1)]);
+    }
 }

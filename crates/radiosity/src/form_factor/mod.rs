@@ -12,14 +12,17 @@
 
 pub mod contour;
 pub mod exchange;
+mod hider;
 mod kinks;
 pub mod lambert;
 mod outline;
 pub(crate) mod outlook;
 pub mod pairs;
 mod partly;
+mod piece;
 pub(crate) mod sampled;
 mod shadow;
+mod sight;
 
 use crate::kernel::{Lambertian, SurfacePoint};
 use crate::patches::{Patches, Strip};

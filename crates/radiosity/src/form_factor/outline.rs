@@ -57,6 +57,11 @@ impl Outline {
         (0..self.count).map(|k| self.vertex(k))
     }
 
+    /// Its edges, from vertex to vertex.
+    pub fn edges(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
+        (0..self.count).map(|k| (self.vertex(k), self.vertex(k + 1)))
+    }
+
     pub fn len(&self) -> usize {
         self.count
     }
@@ -127,6 +132,28 @@ impl Outline {
             all &= below == 0;
         }
         all.then_some(true)
+    }
+
+    /// Bits for the vertices that are more than `rounding` above the plane through a point with a normal, and below.
+    #[inline(always)]
+    pub fn sides_from(&self, point: DVec3, plane: DVec3, rounding: f64) -> (u32, u32) {
+        let bits = |from: usize| {
+            let lanes =
+                |c: &[f64; ROOM], x: f64| f64x4::new([c[from], c[from + 1], c[from + 2], c[from + 3]]) - x;
+            let (x, y, z) = (lanes(&self.x, point.x), lanes(&self.y, point.y), lanes(&self.z, point.z));
+            let h = x * plane.x + (y * plane.y + z * plane.z);
+            let limit = f64x4::splat(rounding);
+            (h.simd_gt(limit).to_bitmask() << from, h.simd_lt(-limit).to_bitmask() << from)
+        };
+        let (mut above, mut below) = bits(0);
+        for from in [4, 8] {
+            if self.count > from {
+                let (more_above, more_below) = bits(from);
+                (above, below) = (above | more_above, below | more_below);
+            }
+        }
+        let used = (1 << self.count) - 1;
+        (above & used, below & used)
     }
 
     /// What planes through the origin, given by their normals, have above all of them; a part is made in `room`.

@@ -6,11 +6,15 @@
 
 use super::exchange::may_see;
 use super::lambert::point_to_polygon;
-use super::outline::{Inside, MOST, Outline};
+use super::outline::{Inside, Outline};
+use super::pairs::screens;
 use crate::polygon::Polygon;
+use crate::visibility::End;
 use crate::visibility::blockers::Blockers;
-use crate::visibility::{End, Visibility};
+use crate::visibility::screens::Screens;
+use crate::visibility::solid::{Plane, Solid};
 use glam::DVec3;
+use std::collections::HashMap;
 use std::ops::Range;
 
 /// The faces of a scene, and what may be between them.
@@ -18,8 +22,10 @@ use std::ops::Range;
 pub(crate) struct Outlooks<'a> {
     faces: &'a [Polygon],
     blockers: Blockers,
-    visibility: Visibility,
+    screens: Screens,
     ends: Vec<End>,
+    /// How far from a plane counts as on it, in metres.
+    touch: f64,
 }
 
 /// What the points of a face see of the others.
@@ -29,83 +35,97 @@ pub(crate) struct Outlook {
     /// The faces not all hidden, in their order, with what may hide some of them, in `hiders`.
     pub seen: Vec<(u32, Vec<u32>)>,
     hiders: Vec<Hider>,
+    touch: f64,
 }
 
-/// A convex polygon that hides what is behind it.
+/// What hides: a convex body, or a convex polygon.
 #[derive(Debug)]
-struct Hider {
-    outline: Outline,
-    normal: DVec3,
-    offset: f64,
-    /// Whether it hides from its front alone: it is of a body, whose other faces hide the rest.
-    one_sided: bool,
-    /// Hiders of one convex body hide no place twice.
-    body: Option<u32>,
+enum Hider {
+    Body(Solid),
+    Side {
+        outline: Outline,
+        plane: Plane,
+        /// Whether it hides from its front alone: it is of a body, whose other faces hide the rest.
+        one_sided: bool,
+    },
 }
+
+/// Which body, or which polygon, and the face in front of whose plane it hides, where it reaches through that.
+type Key = (u32, Option<usize>);
 
 impl<'a> Outlooks<'a> {
     pub fn new(faces: &'a [Polygon]) -> Self {
         let blockers = Blockers::new(faces);
-        let visibility = Visibility::new(&blockers.polygons);
-        let ends = faces.iter().map(|face| visibility.end(face)).collect();
-        Self { faces, blockers, visibility, ends }
+        let screens = screens(&blockers);
+        let ends = faces.iter().map(|face| screens.end(face)).collect();
+        let vertices = || faces.iter().flat_map(|face| face.vertices());
+        let low = vertices().fold(DVec3::INFINITY, |low, v| low.min(*v));
+        let extent = vertices().fold(0.0, |extent: f64, v| extent.max((*v - low).max_element()));
+        Self { faces, blockers, screens, ends, touch: TOUCH * extent }
     }
 
     /// What is seen from a face.
     pub fn from(&self, face: usize) -> Outlook {
         let outer = &self.faces[face];
-        let mut outlook = Outlook { normal: outer.normal(), seen: Vec::new(), hiders: Vec::new() };
-        let mut known = std::collections::HashMap::new();
-        let mut found = Vec::new();
+        let mut outlook =
+            Outlook { normal: outer.normal(), seen: Vec::new(), hiders: Vec::new(), touch: self.touch };
+        let (mut known, mut found) = (HashMap::new(), Vec::new());
         for (other, target) in self.faces.iter().enumerate() {
-            if other == face || !may_see(outer, target) {
-                continue;
+            if other != face && may_see(outer, target) {
+                self.screens.between(&self.ends[face], &self.ends[other], &mut found);
+                let hiders = found.iter().flat_map(|&id| self.names(id, other));
+                let mut hiders: Vec<u32> = hiders
+                    .map(|key| {
+                        *known.entry(key).or_insert_with(|| {
+                            outlook.hiders.push(self.hider(face, key));
+                            outlook.hiders.len() as u32 - 1
+                        })
+                    })
+                    .collect();
+                hiders.retain(|&k| !outlook.hiders[k as usize].is_empty());
+                outlook.seen.push((other as u32, hiders));
             }
-            let (a, b) = (&self.ends[face], &self.ends[other]);
-            self.visibility.between(a, b, &mut found);
-            if found.iter().any(|&id| self.visibility.blocks(id, a, b)) {
-                continue;
-            }
-            let mut hiders = Vec::new();
-            for &id in &found {
-                let polygon = &self.blockers.polygons[id as usize];
-                let in_front = polygon.vertices().iter().all(|v| target.height_of(*v) >= 0.0);
-                // What reaches through the target's plane hides with what is in front of it.
-                let key = (id, if in_front { None } else { Some(other) });
-                let next = outlook.hiders.len() as u32;
-                let index = *known.entry(key).or_insert_with(|| {
-                    outlook.hiders.push(self.hider(face, id, target));
-                    next
-                });
-                if !outlook.hiders[index as usize].outline.is_empty() {
-                    hiders.push(index);
-                }
-            }
-            hiders.sort_by_key(|&k| outlook.hiders[k as usize].body);
-            outlook.seen.push((other as u32, hiders));
         }
         outlook
     }
 
-    fn hider(&self, face: usize, id: u32, target: &Polygon) -> Hider {
+    /// What a polygon that may hide something of a face stands for: its body as one, or some sides.
+    fn names(&self, id: u32, target: usize) -> Vec<Key> {
+        let face = &self.faces[target];
+        let in_front =
+            |vertices: &[DVec3]| vertices.iter().all(|v| face.height_of(*v) >= -self.touch);
+        let solid = self.blockers.body[id as usize].and_then(|body| self.blockers.solids[body as usize].as_ref());
+        if solid.is_some_and(|solid| in_front(&solid.vertices)) {
+            return vec![(id, None)];
+        }
+        let side = |id: u32| {
+            let whole = in_front(self.blockers.polygons[id as usize].vertices()) && solid.is_none();
+            (id, if whole { None } else { Some(target) })
+        };
+        self.blockers.sides(id).map(side).collect()
+    }
+
+    fn hider(&self, face: usize, (id, target): Key) -> Hider {
+        let body = self.blockers.body[id as usize];
+        let solid = body.and_then(|body| self.blockers.solids[body as usize].as_ref());
+        if let (Some(solid), None) = (solid, target) {
+            return Hider::Body(solid.clone());
+        }
+        let outer = &self.faces[face];
         let polygon = &self.blockers.polygons[id as usize];
         let mut outline = Outline::new(polygon.vertices());
-        outline.keep_above(|v| self.faces[face].height_of(v));
-        if !outline.is_empty() {
-            outline.keep_above(|v| target.height_of(v));
+        outline.keep_above(|v| outer.height_of(v));
+        if let Some(target) = target.filter(|_| !outline.is_empty()) {
+            outline.keep_above(|v| self.faces[target].height_of(v));
         }
-        let body = self.blockers.body[id as usize];
-        let one_sided = body.is_some_and(|body| self.blockers.is_outside(face, &self.faces[face], body));
-        let normal = polygon.normal();
-        Hider {
-            outline,
-            normal,
-            offset: normal.dot(polygon.vertices()[0]),
-            one_sided,
-            body: body.filter(|&body| one_sided && self.blockers.is_convex[body as usize]),
-        }
+        let plane = Plane { normal: polygon.normal(), offset: polygon.normal().dot(polygon.vertices()[0]) };
+        let one_sided = body.is_some_and(|body| self.blockers.is_outside(face, outer, body));
+        Hider::Side { outline, plane, one_sided }
     }
 }
+
+/// Heights over planes below this part of the scene are rounding, or the thickness of what only touches.
+const TOUCH: f64 = 1e-9;
 
 /// What a point of a face sees; made once, and moved from point to point.
 #[derive(Debug, Default)]
@@ -114,19 +134,16 @@ pub(crate) struct View {
     normal: DVec3,
     /// The shadow of each hider of the outlook.
     shadows: Vec<Shadow>,
+    planes: Vec<DVec3>,
     /// Those that reach into some part, behind those that reach into what it is a part of.
     kept: Vec<u32>,
     pieces: Vec<Outline>,
     room: [Outline; 2],
 }
 
-/// What is between planes through the point, whose normals point inwards.
+/// What is between planes through the point: their inward normals, in `planes`; everything if there are none.
 #[derive(Debug)]
-struct Shadow {
-    planes: [DVec3; MOST],
-    count: usize,
-    body: Option<u32>,
-}
+struct Shadow(Range<usize>);
 
 /// What is seen of a part.
 pub(crate) enum Seen {
@@ -140,8 +157,13 @@ impl View {
     pub fn go(&mut self, outlook: &Outlook, x: DVec3) {
         (self.x, self.normal) = (x, outlook.normal);
         self.kept.clear();
+        self.planes.clear();
         self.shadows.clear();
-        self.shadows.extend(outlook.hiders.iter().map(|hider| hider.shadow(x)));
+        for hider in &outlook.hiders {
+            let start = self.planes.len();
+            hider.shadow(x, outlook.touch, &mut self.planes);
+            self.shadows.push(Shadow(start..self.planes.len()));
+        }
     }
 
     /// Which of `hiders` reach into a part of a face that is seen from its front.
@@ -166,7 +188,7 @@ impl View {
         let mut end = start;
         for k in start..self.kept.len() {
             let shadow = &self.shadows[self.kept[k] as usize];
-            match part.lies(&shadow.planes[..shadow.count]) {
+            match part.lies(&self.planes[shadow.0.clone()]) {
                 Some(true) => {
                     self.kept.truncate(start);
                     return Seen::Nothing;
@@ -201,35 +223,21 @@ impl View {
     }
 
     fn rest(&mut self, whole: f64, target: Outline, hiders: Range<usize>) -> f64 {
-        let Self { shadows, kept, pieces, room, normal, .. } = self;
-        let shadows = || kept[hiders.clone()].iter().map(|&k| &shadows[k as usize]);
-        let first = shadows().next().and_then(|shadow| shadow.body);
-        if hiders.len() == 1 || (first.is_some() && shadows().all(|shadow| shadow.body == first)) {
-            let hidden = |shadow: &Shadow| match target.inside(&shadow.planes[..shadow.count], room) {
-                Inside::Nothing => 0.0,
-                Inside::Part(part) => part.form_factor(*normal),
-                Inside::All => whole,
-            };
-            return whole - shadows().map(hidden).sum::<f64>();
+        let Self { shadows, planes, kept, pieces, room, normal, .. } = self;
+        let shadow = |k: u32| &planes[shadows[k as usize].0.clone()];
+        if let [one] = kept[hiders.clone()] {
+            return whole - hidden(target, shadow(one), *normal, room);
         }
         pieces.clear();
         pieces.push(target);
-        for shadow in shadows() {
-            let planes = &shadow.planes[..shadow.count];
+        for &hider in &kept[hiders] {
+            let planes = shadow(hider);
             let before = pieces.len();
             for k in 0..before {
-                let mut inner = pieces[k];
-                if matches!(inner.inside(planes, room), Inside::Nothing) {
-                    pieces.push(inner);
-                    continue;
-                }
-                for plane in planes {
-                    let [inside, outside] = inner.divided(*plane);
-                    pieces.extend(outside.uncrowded().into_iter().filter(|part| !part.is_empty()));
-                    inner = inside;
-                    if inner.is_empty() {
-                        break;
-                    }
+                if pieces[k].lies(planes) == Some(false) {
+                    pieces.push(pieces[k]);
+                } else {
+                    take_away(pieces[k], planes, pieces);
                 }
             }
             pieces.drain(..before);
@@ -238,25 +246,69 @@ impl View {
     }
 }
 
+/// So many planes add few enough vertices to a piece.
+const FEW: usize = 7;
+
+/// The form factor of what is above all planes.
+fn hidden(piece: Outline, planes: &[DVec3], normal: DVec3, room: &mut [Outline; 2]) -> f64 {
+    let (now, later) = planes.split_at(planes.len().min(FEW));
+    let part = match piece.inside(now, room) {
+        Inside::Nothing => return 0.0,
+        Inside::Part(part) => *part,
+        Inside::All => piece,
+    };
+    if later.is_empty() {
+        return part.form_factor(normal);
+    }
+    part.uncrowded().into_iter().filter(|half| !half.is_empty()).map(|half| hidden(half, later, normal, room)).sum()
+}
+
+/// Leaves what is not above all planes.
+fn take_away(piece: Outline, planes: &[DVec3], left: &mut Vec<Outline>) {
+    let mut inner = piece;
+    for (k, plane) in planes.iter().enumerate() {
+        let [inside, outside] = inner.divided(*plane);
+        left.extend(outside.uncrowded().into_iter().filter(|part| !part.is_empty()));
+        match inside.uncrowded() {
+            [whole, other] if other.is_empty() => inner = whole,
+            halves => return halves.into_iter().for_each(|half| take_away(half, &planes[k + 1..], left)),
+        }
+        if inner.is_empty() {
+            break;
+        }
+    }
+}
+
 /// What rounding leaves of a factor that is hidden.
 const ROUNDING: f64 = 1e-12;
 
+/// Of a plane without a direction nothing is on the inner side.
+const NOTHING: DVec3 = DVec3::ZERO;
+
 impl Hider {
-    /// What it hides from x: nothing where x is in its plane, or behind one that hides from its front.
-    fn shadow(&self, x: DVec3) -> Shadow {
-        let height = self.normal.dot(x) - self.offset;
-        let mut shadow = Shadow { planes: [DVec3::ZERO; MOST], count: 1, body: self.body };
-        if height == 0.0 || (self.one_sided && height < 0.0) || self.outline.is_empty() {
-            // Nothing is above a plane without a direction.
-            return shadow;
+    fn is_empty(&self) -> bool {
+        matches!(self, Self::Side { outline, .. } if outline.is_empty())
+    }
+
+    /// The inward normals of the planes through x and the edges, seen from x, of what it hides.
+    fn shadow(&self, x: DVec3, touch: f64, planes: &mut Vec<DVec3>) {
+        match self {
+            Self::Body(solid) => {
+                let in_front = solid.in_front(x, touch);
+                let outline =
+                    solid.ridges.iter().filter_map(|ridge| ridge.on_outline(|k| in_front >> k & 1 == 1));
+                planes.extend(outline.map(|[from, to]| (to - x).cross(from - x)));
+            }
+            Self::Side { outline, plane, one_sided } => {
+                let height = plane.height_of(x);
+                if height.abs() <= touch || (*one_sided && height < 0.0) {
+                    planes.push(NOTHING);
+                } else {
+                    planes.extend(
+                        outline.edges().map(|(from, to)| (to - x).cross(from - x) * height.signum()),
+                    );
+                }
+            }
         }
-        shadow.count = self.outline.len();
-        let mut before = self.outline.vertex(shadow.count - 1) - x;
-        for (plane, corner) in shadow.planes.iter_mut().zip(self.outline.vertices()) {
-            let corner = corner - x;
-            *plane = corner.cross(before) * height.signum();
-            before = corner;
-        }
-        shadow
     }
 }

@@ -1,9 +1,10 @@
 //! ∫_{P_i} g(x) dx, where g(x) is the form factor from x to what is hidden of P_j: cut where g has kinks, and adaptive.
 
-use super::kinks::{Cell, Kink, kinks};
+use super::hider::{Hider, Scene};
+use super::kinks::{Kink, kinks};
 use super::outline::Outline;
-use super::shadow::{Hider, Shadows};
-use crate::polygon::Polygon;
+use super::piece::{Cell, Piece, area, halves};
+use super::shadow::{Room, Shadows};
 use crate::view_factors::Exchange;
 use fredholm::quadrature::triangle;
 use glam::DVec3;
@@ -65,9 +66,13 @@ impl Pair {
 
 /// The hidden part of an exchange.
 pub(super) struct Partly<'a> {
-    pub outer: &'a Polygon,
+    /// What is integrated over, and its normal.
+    pub outer: Piece,
+    pub normal: DVec3,
     pub target: Outline,
     pub hiders: &'a [Hider],
+    /// A length that no distance here is far above.
+    pub reach: f64,
     /// What the two would exchange if nothing were hidden, over the area of the outer one.
     pub whole: f64,
     pub rules: &'a Pair,
@@ -100,8 +105,8 @@ impl Ord for Part {
 /// Most cells that a pair is cut into.
 const MOST: usize = 20_000;
 
-/// With more cells than that it is left to their errors which are cut further.
-const MANY: usize = 40;
+/// With more pieces than that it is left to their errors which are cut further.
+const MANY: usize = 20;
 
 /// A cell is cut in any case by a kink that is no nearer to a corner than this part of it. A kink nearer than that may hide
 /// from all nodes: what grows from it on grows at most as fast as from nothing to the whole over the cell.
@@ -109,35 +114,23 @@ const EVEN: f64 = 0.03;
 
 impl Partly<'_> {
     /// The integral, with an error below `tolerance` in m².
-    pub fn hidden(&self, tolerance: f64) -> Exchange {
-        let kinks = kinks(self.outer, &self.target, self.hiders);
-        let shadows = Shadows { target: self.target, normal: self.outer.normal(), hiders: self.hiders };
-        let mut pieces = Vec::new();
+    pub fn hidden(&self, tolerance: f64, room: &mut Room) -> Exchange {
+        let kinks = kinks(self.outer.corners(), &self.target, self.hiders, self.reach);
+        let shadows = Shadows { target: self.target, normal: self.normal, hiders: self.hiders };
         let mut parts = BinaryHeap::new();
         let mut error = 0.0;
-        // What is going to be cut in any case is not integrated before.
-        let mut cells: Vec<Cell> = self.outer.triangles().collect();
-        for kink in &kinks {
-            if cells.len() > MANY {
-                break;
+        for piece in self.pieces(&kinks) {
+            for cell in piece.triangles() {
+                let part = self.part(cell, &kinks, &shadows, room);
+                error += part.error;
+                parts.push(part);
             }
-            let whole = std::mem::take(&mut cells);
-            let cuts = |cell: &Cell| kink.cuts(cell, self.outer.normal()) > EVEN;
-            cells = whole
-                .into_iter()
-                .flat_map(|cell| if cuts(&cell) { kink.divide(&cell) } else { vec![cell] })
-                .collect();
-        }
-        for cell in cells {
-            let part = self.part(cell, &kinks, &shadows, &mut pieces);
-            error += part.error;
-            parts.push(part);
         }
         while error > tolerance && parts.len() < MOST {
             let Some(worst) = parts.pop() else { break };
             error -= worst.error;
-            for cell in self.divided(&worst.cell, &kinks) {
-                let part = self.part(cell, &kinks, &shadows, &mut pieces);
+            for cell in divided(&worst.cell, &kinks) {
+                let part = self.part(cell, &kinks, &shadows, room);
                 error += part.error;
                 parts.push(part);
             }
@@ -146,37 +139,54 @@ impl Partly<'_> {
         Exchange { value, error }
     }
 
-    fn part(&self, cell: Cell, kinks: &[Kink], shadows: &Shadows<'_>, pieces: &mut Vec<Outline>) -> Part {
+    /// What is going to be cut in any case is not integrated before; nor is where nothing is hidden.
+    fn pieces(&self, kinks: &[Kink]) -> Vec<Piece> {
+        let mut pieces = vec![self.outer];
+        for kink in kinks {
+            if pieces.len() > MANY {
+                break;
+            }
+            for k in 0..pieces.len() {
+                if kink.cuts(pieces[k].corners()) > EVEN
+                    && let Some([above, below]) = pieces[k].divided(|x| kink.height_of(x))
+                {
+                    pieces[k] = above;
+                    pieces.push(below);
+                }
+            }
+        }
+        pieces.retain(|piece| {
+            let scene = Scene { eyes: piece.corners(), target: &self.target, reach: self.reach };
+            !self.hiders.iter().all(|hider| hider.misses(&scene))
+        });
+        pieces
+    }
+
+    fn part(&self, cell: Cell, kinks: &[Kink], shadows: &Shadows<'_>, room: &mut Room) -> Part {
         let [a, b, c] = cell;
         let (mut high, mut low) = (0.0, 0.0);
         for ([u, v, w], weight, lower) in &self.rules.nodes {
             let x = a * *u + b * *v + c * *w;
-            let hidden = shadows.hidden(x, pieces);
+            let hidden = shadows.hidden(x, room);
             high += weight * hidden;
             low += lower * hidden;
         }
-        let area = 0.5 * (b - a).cross(c - a).length();
+        let area = area(&cell);
         let mut error = (high - low).abs();
-        let cut = kinks.iter().map(|kink| kink.cuts(&cell, self.outer.normal())).fold(0.0, f64::max);
+        let cut = kinks.iter().map(|kink| kink.cuts(&cell)).fold(0.0, f64::max);
         error = error.max(self.whole * cut.min(EVEN).powi(2));
         Part { cell, value: area * high, error: area * error }
     }
-
-    /// A cell cut by the kink that divides it most evenly, or across its longest side if none does.
-    fn divided(&self, cell: &Cell, kinks: &[Kink]) -> Vec<Cell> {
-        let evenness = |kink: &Kink| kink.cuts(cell, self.outer.normal());
-        let best = kinks.iter().map(|kink| (evenness(kink), kink)).max_by(|a, b| a.0.total_cmp(&b.0));
-        match best {
-            Some((even, kink)) if even > 0.0 => kink.divide(cell),
-            _ => halves(cell).to_vec(),
-        }
-    }
 }
 
-fn halves(cell: &Cell) -> [Cell; 2] {
-    let side = |k: usize| cell[k].distance_squared(cell[(k + 1) % 3]);
-    let longest = (1..3).fold(0, |best, k| if side(k) > side(best) { k } else { best });
-    let [a, b, c]: Cell = std::array::from_fn(|k| cell[(longest + k) % 3]);
-    let middle: DVec3 = a.midpoint(b);
-    [[a, middle, c], [middle, b, c]]
+/// A cell cut by the kink that divides it most evenly, or across its longest side if none does.
+fn divided(cell: &Cell, kinks: &[Kink]) -> Vec<Cell> {
+    let best = kinks.iter().map(|kink| (kink.cuts(cell), kink)).max_by(|a, b| a.0.total_cmp(&b.0));
+    match best {
+        Some((even, kink)) if even > 0.0 => {
+            let parts = Piece::new(cell).divided(|x| kink.height_of(x));
+            parts.iter().flatten().flat_map(|part| part.triangles().collect::<Vec<_>>()).collect()
+        }
+        _ => halves(cell).to_vec(),
+    }
 }

@@ -3,35 +3,9 @@
 //!
 //! What hides lies between the planes of the two polygons of a pair; then what is in the pyramid from x over it is hidden.
 
-use super::outline::{Inside, MOST, Outline};
+use super::hider::Hider;
+use super::outline::{Inside, Outline};
 use glam::DVec3;
-
-/// A convex polygon that hides something of the pair, in front of both of its polygons.
-#[derive(Clone, Debug)]
-pub(super) struct Hider {
-    pub outline: Outline,
-    pub normal: DVec3,
-    pub offset: f64,
-    /// Whether all points from which the shadow is asked for are in front of it, and whether some are on either side.
-    pub in_front: bool,
-    pub straddled: bool,
-    /// Whether it hides only what is behind it: it is of a body, whose other faces hide the rest.
-    pub one_sided: bool,
-    /// Hiders of one convex body hide no place twice.
-    pub body: Option<u32>,
-}
-
-impl Hider {
-    pub fn height_of(&self, x: DVec3) -> f64 {
-        self.normal.dot(x) - self.offset
-    }
-
-    /// The side from which x sees it, 1 or −1; none where x is in its plane or sees a side that hides nothing.
-    fn side(&self, x: DVec3) -> Option<f64> {
-        let height = self.height_of(x);
-        (height != 0.0 && !(self.one_sided && height < 0.0)).then(|| height.signum())
-    }
-}
 
 /// What hides a polygon, seen from the points of another.
 pub(super) struct Shadows<'a> {
@@ -43,15 +17,21 @@ pub(super) struct Shadows<'a> {
     pub hiders: &'a [Hider],
 }
 
+/// Room to work in.
+#[derive(Default)]
+pub(super) struct Room {
+    pieces: Vec<Outline>,
+    parts: [Outline; 2],
+}
+
 impl Shadows<'_> {
     /// The form factor from x to what is hidden of the polygon, which is seen from its front.
-    ///
-    /// `pieces` is room to work in.
-    pub fn hidden(&self, x: DVec3, pieces: &mut Vec<Outline>) -> f64 {
+    pub fn hidden(&self, x: DVec3, room: &mut Room) -> f64 {
+        let Room { pieces, parts } = room;
         let target = self.target.seen_from(x);
         let (group, others) = first_group(self.hiders);
         if others.is_empty() {
-            return self.inside(group, x, std::slice::from_ref(&target));
+            return self.inside(group, x, std::slice::from_ref(&target), parts);
         }
         pieces.clear();
         pieces.push(target);
@@ -60,21 +40,22 @@ impl Shadows<'_> {
         while !rest.is_empty() {
             let (group, others) = first_group(rest);
             // What these hide is taken away from what later ones could hide; after the last ones there is none.
-            sum +=
-                if others.is_empty() { self.inside(group, x, pieces) } else { self.taken(group, x, pieces) };
+            sum += if others.is_empty() {
+                self.inside(group, x, pieces, parts)
+            } else {
+                self.taken(group, x, pieces, parts)
+            };
             rest = others;
         }
         sum
     }
 
-    fn inside(&self, group: &[Hider], x: DVec3, pieces: &[Outline]) -> f64 {
+    fn inside(&self, group: &[Hider], x: DVec3, pieces: &[Outline], parts: &mut [Outline; 2]) -> f64 {
         let mut sum = 0.0;
-        let mut room = [Outline::EMPTY; 2];
         for hider in group {
-            let Some(side) = hider.side(x) else { continue };
-            let (planes, count) = pyramid(hider, x, side);
+            let Some((planes, count)) = hider.planes(x) else { continue };
             for piece in pieces {
-                sum += match piece.inside(&planes[..count], &mut room) {
+                sum += match piece.inside(&planes[..count], parts) {
                     Inside::Nothing => 0.0,
                     Inside::Part(part) => part.form_factor(self.normal),
                     Inside::All => piece.form_factor(self.normal),
@@ -84,16 +65,14 @@ impl Shadows<'_> {
         sum
     }
 
-    fn taken(&self, group: &[Hider], x: DVec3, pieces: &mut Vec<Outline>) -> f64 {
+    fn taken(&self, group: &[Hider], x: DVec3, pieces: &mut Vec<Outline>, parts: &mut [Outline; 2]) -> f64 {
         let mut sum = 0.0;
-        let mut room = [Outline::EMPTY; 2];
         for hider in group {
-            let Some(side) = hider.side(x) else { continue };
-            let (planes, count) = pyramid(hider, x, side);
+            let Some((planes, count)) = hider.planes(x) else { continue };
             let before = pieces.len();
             for k in 0..before {
                 let mut inner = pieces[k];
-                if matches!(inner.inside(&planes[..count], &mut room), Inside::Nothing) {
+                if matches!(inner.inside(&planes[..count], parts), Inside::Nothing) {
                     pieces.push(inner);
                     continue;
                 }
@@ -119,17 +98,4 @@ impl Shadows<'_> {
 fn first_group(hiders: &[Hider]) -> (&[Hider], &[Hider]) {
     let alike = |hider: &&Hider| hider.body.is_some() && hider.body == hiders[0].body;
     hiders.split_at(hiders.iter().take_while(alike).count().clamp(1, hiders.len()))
-}
-
-/// The inward normals of the planes through x and the edges of what hides, and how many there are.
-fn pyramid(hider: &Hider, x: DVec3, side: f64) -> ([DVec3; MOST], usize) {
-    let mut planes = [DVec3::ZERO; MOST];
-    let count = hider.outline.len();
-    let mut before = hider.outline.vertex(count - 1) - x;
-    for (plane, corner) in planes.iter_mut().zip(hider.outline.vertices()) {
-        let corner = corner - x;
-        *plane = corner.cross(before) * side;
-        before = corner;
-    }
-    (planes, count)
 }

@@ -1,9 +1,11 @@
 //! What hides, as few convex polygons: the faces of one plane that a mesh cuts a wall into cast one shadow.
 //!
 //! Faces that share an edge and a plane are put together where that makes a convex polygon. Faces that close a body are
-//! known to: from without it, those that are seen from the front hide all that the body hides.
+//! known to: from without it, those that are seen from the front hide all that the body hides. A convex body hides what
+//! is inside of its outline ([`Solid`]).
 
 use super::facet::ON_PLANE;
+use super::solid::{Plane, Ridge, Solid};
 use crate::polygon::Polygon;
 use glam::DVec3;
 use std::collections::HashMap;
@@ -17,8 +19,12 @@ pub(crate) struct Blockers {
     pub body: Vec<Option<u32>>,
     /// The boxes around the bodies.
     pub bodies: Vec<[DVec3; 2]>,
+    /// The polygons of each body.
+    pub polygons_of: Vec<Vec<u32>>,
     /// Whether each body is convex, with its fronts outside: then what is seen of it from the front covers no place twice.
     pub is_convex: Vec<bool>,
+    /// Each convex body that has not too many sides.
+    pub solids: Vec<Option<Solid>>,
     /// The body of each face.
     pub body_of_face: Vec<Option<u32>>,
 }
@@ -29,61 +35,75 @@ impl Blockers {
     /// From the faces of a scene.
     pub fn new(faces: &[Polygon]) -> Self {
         let mesh = Mesh::new(faces);
-        let (body_of_face, bodies) = mesh.bodies();
+        let (body_of_face, bodies, caps) = mesh.bodies();
         let mut blockers = Self {
             polygons: Vec::new(),
             body: Vec::new(),
-            is_convex: vec![false; bodies.len()],
+            polygons_of: vec![Vec::new(); bodies.len()],
+            is_convex: Vec::new(),
+            solids: Vec::new(),
             bodies,
             body_of_face,
         };
-        let mut outlines = Vec::new();
+        let mut sides: Vec<Vec<_>> =
+            caps.into_iter().map(|cap| cap.map(Some).into_iter().collect()).collect();
         for plane in mesh.planes() {
-            let body = blockers.body_of_face[plane[0] as usize];
-            let whole = mesh.outline(&plane).map(|outline| mesh.without_straight_corners(&outline));
-            let parts =
-                match whole.filter(|outline| mesh.is_convex(outline, faces[plane[0] as usize].normal())) {
-                    Some(outline) => fan(&outline),
-                    None => plane.iter().map(|&face| mesh.corners[face as usize].clone()).collect(),
-                };
+            let (body, normal) =
+                (blockers.body_of_face[plane[0] as usize], faces[plane[0] as usize].normal());
+            let outline = mesh.outline(&plane).map(|outline| mesh.without_straight_corners(&outline));
+            let whole = outline.filter(|outline| mesh.is_convex(outline, normal));
+            let parts = match &whole {
+                Some(outline) => fan(outline),
+                None => plane.iter().map(|&face| mesh.corners[face as usize].clone()).collect(),
+            };
+            if let Some(body) = body {
+                let first = blockers.polygons.len();
+                blockers.polygons_of[body as usize].extend((first..first + parts.len()).map(|k| k as u32));
+                sides[body as usize].push(whole);
+            }
             blockers.body.resize(blockers.body.len() + parts.len(), body);
-            outlines.extend(parts);
+            blockers.polygons.extend(parts.iter().map(|part| mesh.polygon(part)));
         }
-        let at = |v: u32| mesh.vertices[v as usize];
-        blockers.polygons = outlines
-            .iter()
-            .map(|outline| match *outline.as_slice() {
-                [a, b, c, d] => Polygon::quadrilateral(at(a), at(b), at(c), at(d)),
-                _ => Polygon::triangle(at(outline[0]), at(outline[1]), at(outline[2])),
-            })
-            .collect();
-        blockers.find_convex(mesh.on_plane);
+        let solid =
+            |sides: Vec<Option<Vec<u32>>>| mesh.solid(&sides.into_iter().collect::<Option<Vec<_>>>()?);
+        let solids = sides.into_iter().map(solid);
+        for solid in solids {
+            blockers.is_convex.push(solid.is_some());
+            blockers.solids.push(solid.filter(|solid| solid.planes.len() <= MOST_SIDES));
+        }
         blockers
     }
 
-    /// Whether no point of a face, given by its number and itself, is in a body.
+    /// Whether no point of a face, by its number, sees from within a body: their boxes, or a side of the body, tell them apart.
+    ///
+    /// A face on which the body stands has points under it, which see nothing but its inside.
     pub fn is_outside(&self, face: usize, polygon: &Polygon, body: u32) -> bool {
         let [least, most] = self.bodies[body as usize];
-        let [low, high] = bounds(polygon.vertices().iter().copied());
+        let touch = ON_PLANE * (most - least).max_element();
+        let apart = |side: &Plane| {
+            let heights = polygon.vertices().iter().map(|v| side.height_of(*v));
+            let (low, high) = heights.fold((f64::MAX, f64::MIN), |(low, high), h| (low.min(h), high.max(h)));
+            low >= 0.0 && (high > touch || polygon.normal().dot(side.normal) > 0.0)
+        };
+        let sides = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| {
+            let plane = |normal: DVec3, corner: DVec3| Plane { normal, offset: normal.dot(corner) };
+            [plane(axis, most), plane(-axis, least)]
+        });
         self.body_of_face[face] == Some(body)
-            || (0..3).any(|k| low[k] >= most[k] || high[k] <= least[k])
+            || sides.into_iter().any(|side| apart(&side))
+            || self.solids[body as usize].as_ref().is_some_and(|solid| solid.planes.iter().any(apart))
     }
 
-    fn find_convex(&mut self, on_plane: f64) {
-        let mut of_body = vec![Vec::new(); self.bodies.len()];
-        for (polygon, body) in self.polygons.iter().zip(&self.body) {
-            if let Some(body) = body {
-                of_body[*body as usize].push(polygon);
-            }
-        }
-        for (polygons, is_convex) in of_body.iter().zip(&mut self.is_convex) {
-            let behind = |plane: &Polygon| {
-                polygons.iter().flat_map(|p| p.vertices()).all(|v| plane.height_of(*v) <= on_plane)
-            };
-            *is_convex = polygons.len() <= MOST_EXAMINED && polygons.iter().all(|plane| behind(plane));
-        }
+    /// The polygons that one stands for: those of its body, if that is a [`Solid`].
+    pub fn sides(&self, polygon: u32) -> impl Iterator<Item = u32> + '_ {
+        let body = self.body[polygon as usize].filter(|&body| self.solids[body as usize].is_some());
+        let all = body.map_or(&[][..], |body| &self.polygons_of[body as usize]);
+        body.is_none().then_some(polygon).into_iter().chain(all.iter().copied())
     }
 }
+
+/// A body with more sides than that is looked at side by side: its outline has many edges.
+const MOST_SIDES: usize = 128;
 
 /// Quadrilaterals and a triangle that a convex outline is made of.
 fn fan(outline: &[u32]) -> Vec<Vec<u32>> {
@@ -100,7 +120,7 @@ fn cyclic(outline: &[u32]) -> impl Iterator<Item = Edge> {
     (0..outline.len()).map(|k| (outline[k], outline[(k + 1) % outline.len()]))
 }
 
-/// Every face of a body against every vertex takes time; of one with more faces than that it is not known.
+/// Every side of a body against every vertex takes time; of one with more sides than that it is not known.
 const MOST_EXAMINED: usize = 2000;
 
 /// Faces that know which edges they share.
@@ -181,19 +201,46 @@ impl<'a> Mesh<'a> {
         planes
     }
 
-    /// The body that each face is of, if it is of a closed one, and the boxes around the bodies.
-    fn bodies(&self) -> (Vec<Option<u32>>, Vec<[DVec3; 2]>) {
+    /// The body that each face is of, if it is of a closed one, the boxes around the bodies, and what closes them.
+    ///
+    /// Closed is also what stands with its open end on a plane that has the whole scene on one side: nothing looks in there.
+    fn bodies(&self) -> (Vec<Option<u32>>, Vec<[DVec3; 2]>, Vec<Option<Vec<u32>>>) {
         let (component, count) = self.components(|_, _| true);
-        let mut closed = vec![true; count as usize];
+        let mut open = vec![HashMap::new(); count as usize];
         for (corners, c) in self.corners.iter().zip(&component) {
-            closed[*c as usize] &= cyclic(corners).all(|edge| self.across(edge).is_some());
+            let edges = cyclic(corners).filter(|&edge| self.across(edge).is_none());
+            open[*c as usize].extend(edges.map(|(u, v)| (v, u)));
         }
+        let caps: Vec<_> = open.iter().map(|edges| self.cap(edges)).collect();
+        let closed: Vec<bool> = open.iter().zip(&caps).map(|(o, cap)| o.is_empty() || cap.is_some()).collect();
         let mut boxes = vec![bounds(std::iter::empty()); count as usize];
         for (face, c) in self.faces.iter().zip(&component) {
             let [low, high] = &mut boxes[*c as usize];
             face.vertices().iter().for_each(|v| (*low, *high) = (low.min(*v), high.max(*v)));
         }
-        (component.iter().map(|&c| closed[c as usize].then_some(c)).collect(), boxes)
+        let body_of_face = component.iter().map(|&c| closed[c as usize].then_some(c)).collect();
+        (body_of_face, boxes, caps)
+    }
+
+    /// The convex outline that these edges make on a plane with the whole scene behind it.
+    fn cap(&self, edges: &HashMap<u32, u32>) -> Option<Vec<u32>> {
+        let start = *edges.keys().min()?;
+        let mut outline = vec![start];
+        let mut at = *edges.get(&start)?;
+        while at != start && outline.len() < edges.len() {
+            outline.push(at);
+            at = *edges.get(&at)?;
+        }
+        let whole = at == start && outline.len() == edges.len();
+        let outline = self.without_straight_corners(&outline);
+        if !whole || outline.len() < 3 {
+            return None;
+        }
+        let plane = self.polygon(&outline[..3]);
+        let height = |v: &u32| plane.height_of(self.vertices[*v as usize]);
+        let behind = self.vertices.iter().all(|v| plane.height_of(*v) <= self.on_plane);
+        let flat = outline.iter().all(|v| height(v) >= -self.on_plane);
+        (behind && flat && self.is_convex(&outline, plane.normal())).then_some(outline)
     }
 
     /// The outline of faces of a plane, if it is one without holes that touches itself nowhere.
@@ -215,6 +262,43 @@ impl<'a> Mesh<'a> {
             at = *next.get(&at)?;
         }
         (outline.len() == next.len()).then_some(outline)
+    }
+
+    /// A polygon from the numbers of its three or four corners.
+    fn polygon(&self, corners: &[u32]) -> Polygon {
+        let at = |v: u32| self.vertices[v as usize];
+        match *corners {
+            [a, b, c, d] => Polygon::quadrilateral(at(a), at(b), at(c), at(d)),
+            _ => Polygon::triangle(at(corners[0]), at(corners[1]), at(corners[2])),
+        }
+    }
+
+    /// The body of these sides, if it is convex with its fronts outside.
+    fn solid(&self, sides: &[Vec<u32>]) -> Option<Solid> {
+        let at = |v: u32| self.vertices[v as usize];
+        let mut vertices: Vec<u32> = sides.iter().flatten().copied().collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        let plane = |side: &Vec<u32>| {
+            let normal = self.polygon(&side[..3]).normal();
+            Plane { normal, offset: normal.dot(at(side[0])) }
+        };
+        let planes: Vec<Plane> = sides.iter().map(plane).collect();
+        let behind = |plane: &Plane| vertices.iter().all(|&v| plane.height_of(at(v)) <= self.on_plane);
+        if sides.is_empty() || sides.len() > MOST_EXAMINED || !planes.iter().all(behind) {
+            return None;
+        }
+        let edges = || sides.iter().zip(0..).flat_map(|(side, k)| cyclic(side).map(move |edge| (edge, k)));
+        let side_of: HashMap<Edge, u32> = edges().collect();
+        let mut ridges = Vec::new();
+        for ((u, v), k) in edges() {
+            // An edge that one of its sides has in two pieces is in no outline.
+            let across = *side_of.get(&(v, u))?;
+            if u < v {
+                ridges.push(Ridge { ends: [at(u), at(v)], sides: [k, across] });
+            }
+        }
+        Some(Solid { planes, ridges, vertices: vertices.into_iter().map(at).collect() })
     }
 
     fn without_straight_corners(&self, outline: &[u32]) -> Vec<u32> {
@@ -279,7 +363,9 @@ mod tests {
                 assert!((polygon.area() - 0.16).abs() < 1e-15 && polygon.vertices().len() == 4);
                 assert!((polygon.centroid() - DVec3::splat(0.5)).dot(polygon.normal()) > 0.1);
             }
-            assert!(blockers.body.iter().all(|body| body.is_some()) && blockers.is_convex == [true]);
+            assert!(blockers.body.iter().all(Option::is_some));
+            let [Some(solid)] = blockers.solids.as_slice() else { panic!("a convex body") };
+            assert_eq!((solid.planes.len(), solid.ridges.len(), solid.vertices.len()), (6, 12, 8));
         }
     }
 

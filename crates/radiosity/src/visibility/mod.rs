@@ -15,7 +15,9 @@ mod end;
 mod facet;
 mod packet;
 mod ray;
+pub(crate) mod screens;
 mod shaft;
+pub(crate) mod solid;
 mod walls;
 
 pub use count::RayCount;
@@ -26,7 +28,7 @@ pub(crate) use end::End;
 use facet::{Facet, Frame};
 use glam::DVec3;
 use ray::{Blocker, Nearest, Ray};
-use shaft::{Between, Shaft};
+use shaft::Shaft;
 
 /// May s and t see each other?
 #[derive(Clone, Debug)]
@@ -119,25 +121,6 @@ impl Visibility {
         let mut query = Shaft::new(&self.facets, &a, &b);
         self.occluders.walk(&mut query);
         query.clear
-    }
-
-    /// A polygon of the scene, made ready for [`between`](Self::between).
-    pub(crate) fn end(&self, polygon: &Polygon) -> End {
-        End::new(Facet::new(polygon, &self.frame))
-    }
-
-    /// The polygons that are not proved to miss all segments from a to b, into `found`.
-    pub(crate) fn between(&self, a: &End, b: &End, found: &mut Vec<u32>) {
-        found.clear();
-        if self.occluders.nodes.first().is_some_and(|root| a.may_meet(b, root)) {
-            let shaft = Shaft::new(&self.facets, &a.facet, &b.facet);
-            self.occluders.walk(&mut Between { shaft, found });
-        }
-    }
-
-    /// [`certainly_blocks`](Self::certainly_blocks) for polygons that are made ready.
-    pub(crate) fn blocks(&self, id: u32, a: &End, b: &End) -> bool {
-        self.facets[id as usize].separates(&a.facet, &b.facet)
     }
 
     /// Whether it is proved that the one polygon `id` cuts every segment from a to b; false means "not known".

@@ -130,10 +130,16 @@ impl<'a> Shaft<'a> {
     /// Whether the facet is proved to cut no segment between the polygons.
     ///
     /// The quick refutation, that it cuts the line of centroids, spares a try that could not succeed.
-    fn misses(&self, facet: &Facet) -> bool {
-        self.sides.iter().any(|sides| sides.exclude(facet.vertices()))
+    pub(super) fn misses(&self, facet: u32) -> bool {
+        let facet = &self.facets[facet as usize];
+        self.excludes(facet.vertices())
             || self.on_one_side_of(facet)
             || (facet.cut(self.centroids[0], self.centroids[1]).is_none() && self.is_aside(facet))
+    }
+
+    /// Whether the hull of these points is on the outer side of one side of the hull of the polygons.
+    pub(super) fn excludes(&self, points: &[DVec3]) -> bool {
+        self.sides.iter().any(|sides| sides.exclude(points))
     }
 
     /// Whether both polygons lie on one closed side of the facet's plane.
@@ -169,7 +175,7 @@ fn furthest(points: &[DVec3], axis: DVec3) -> DVec3 {
 impl Shaft<'_> {
     /// A bit for each box that reaches into the hull.
     #[inline(always)]
-    fn reached(&self, node: &Node) -> u32 {
+    pub(super) fn reached(&self, node: &Node) -> u32 {
         let mut inside = f32x8::ZERO.simd_eq(f32x8::ZERO);
         for k in 0..3 {
             let (low, high) = (-raised(-self.low[k], 1.0), raised(self.high[k], 1.0));
@@ -196,30 +202,8 @@ impl Query for Shaft<'_> {
 
     #[inline(always)]
     fn visit(&mut self, packet: &Packet) -> ControlFlow<()> {
-        self.clear = packet.distinct().all(|k| self.misses(&self.facets[k as usize]));
+        self.clear = packet.distinct().all(|k| self.misses(k));
         if self.clear { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-    }
-}
-
-/// The facets that are not proved to miss the hull.
-pub(super) struct Between<'a> {
-    pub(super) shaft: Shaft<'a>,
-    pub(super) found: &'a mut Vec<u32>,
-}
-
-impl Query for Between<'_> {
-    #[inline(always)]
-    fn select(&self, node: &Node) -> u32 {
-        self.shaft.reached(node)
-    }
-
-    fn visit(&mut self, packet: &Packet) -> ControlFlow<()> {
-        for k in packet.distinct() {
-            if !self.found.contains(&k) && !self.shaft.misses(&self.shaft.facets[k as usize]) {
-                self.found.push(k);
-            }
-        }
-        ControlFlow::Continue(())
     }
 }
 
