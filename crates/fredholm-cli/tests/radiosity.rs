@@ -174,7 +174,7 @@ fn a_reader_who_goes_away_is_no_error() {
 fn an_interrupt_leaves_nothing() {
     let folder = folder("interrupt");
     let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_fredholm"));
-    command.args(["radiosity", "--accuracy", "1e-5", "-o", "a.png"]).current_dir(&folder);
+    command.args(["radiosity", "--factor-accuracy", "1e-5", "-o", "a.png"]).current_dir(&folder);
     let mut child = command.spawn().unwrap();
     while names(&folder).is_empty() {
         assert_eq!(child.try_wait().unwrap(), None, "it ended before it could be interrupted");

@@ -1,7 +1,7 @@
 //! Room 2: the mesh of the domain. Each input polygon is cut into patches P_i on which u is constant (P0).
 
 use crate::polygon::Polygon;
-use crate::scene::Scene;
+use crate::scene::{Scene, Surface};
 use fredholm::value::Value;
 use glam::{DVec2, DVec3};
 use std::ops::Range;
@@ -21,7 +21,7 @@ pub struct Patches<V> {
     pub surface: Vec<u32>,
     /// Strips of neighbouring patches, in the order of the patches, every patch in one.
     pub strips: Vec<Strip>,
-    grids: Vec<Grid>,
+    cuts: Vec<Cut>,
 }
 
 /// Up to eight patches side by side in one plane, that together are one convex polygon.
@@ -62,26 +62,57 @@ impl<V: Value> Patches<V> {
         if count > MAX_PATCHES as f64 {
             return Err(PatchError::TooMany { size, count });
         }
-        let mut patches = Self {
-            polygons: Vec::with_capacity(count as usize),
+        let mut patches = Self::empty();
+        patches.polygons.reserve(count as usize);
+        for (index, surface) in scene.surfaces.iter().enumerate() {
+            for polygon in &surface.polygons {
+                patches.cut(polygon, size);
+            }
+            patches.make(index, surface);
+        }
+        patches.areas = patches.polygons.iter().map(Polygon::area).collect();
+        Ok(patches)
+    }
+
+    /// The patches that somebody else has cut the polygons of the scene into, polygon by polygon.
+    pub fn from_parts(scene: &Scene<V>, parts: impl IntoIterator<Item = Vec<Polygon>>) -> Self {
+        let mut patches = Self::empty();
+        let mut parts = parts.into_iter();
+        for (index, surface) in scene.surfaces.iter().enumerate() {
+            for (polygon, parts) in surface.polygons.iter().zip(&mut parts) {
+                let first = patches.len();
+                let strip = |(k, part): (usize, &Polygon)| Strip {
+                    patches: first + k..first + k + 1,
+                    polygon: part.clone(),
+                };
+                patches.strips.extend(parts.iter().enumerate().map(strip));
+                patches.polygons.extend(parts);
+                patches.cuts.push(Cut::Parts(first..patches.len(), polygon.clone()));
+            }
+            patches.make(index, surface);
+        }
+        patches.areas = patches.polygons.iter().map(Polygon::area).collect();
+        patches
+    }
+
+    fn empty() -> Self {
+        Self {
+            polygons: Vec::new(),
             areas: Vec::new(),
             reflectance: Vec::new(),
             emission: Vec::new(),
             surface: Vec::new(),
             strips: Vec::new(),
-            grids: Vec::new(),
-        };
-        for (index, surface) in scene.surfaces.iter().enumerate() {
-            for polygon in &surface.polygons {
-                patches.cut(polygon, size);
-            }
-            let n = patches.polygons.len();
-            patches.reflectance.resize(n, surface.reflectance);
-            patches.emission.resize(n, surface.emission);
-            patches.surface.resize(n, index as u32);
+            cuts: Vec::new(),
         }
-        patches.areas = patches.polygons.iter().map(Polygon::area).collect();
-        Ok(patches)
+    }
+
+    /// What the last patches, up to all, are made of.
+    fn make(&mut self, index: usize, surface: &Surface<V>) {
+        let n = self.polygons.len();
+        self.reflectance.resize(n, surface.reflectance);
+        self.emission.resize(n, surface.emission);
+        self.surface.resize(n, index as u32);
     }
 
     fn cut(&mut self, polygon: &Polygon, size: f64) {
@@ -92,7 +123,7 @@ impl<V: Value> Patches<V> {
         };
         self.polygons.extend(grid.patches());
         self.strips.extend(grid.strips());
-        self.grids.push(grid);
+        self.cuts.push(Cut::Grid(grid));
     }
 
     /// How many patches there are.
@@ -107,18 +138,28 @@ impl<V: Value> Patches<V> {
 
     /// The patch of input polygon number `polygon` (counted over all surfaces) nearest to a point of it.
     pub fn patch_at(&self, polygon: u32, point: DVec3) -> usize {
-        self.grids[polygon as usize].patch_at(point)
+        match &self.cuts[polygon as usize] {
+            Cut::Grid(grid) => grid.patch_at(point),
+            Cut::Parts(parts, _) => {
+                let outside = |k: &usize| self.polygons[*k].distance_outside(point);
+                parts.clone().min_by(|a, b| outside(a).total_cmp(&outside(b))).unwrap_or(parts.start)
+            }
+        }
     }
 
     /// The unit normal of input polygon number `polygon`, on its front.
     pub fn normal_of(&self, polygon: u32) -> DVec3 {
-        self.grids[polygon as usize].whole.normal()
+        match &self.cuts[polygon as usize] {
+            Cut::Grid(Grid { whole, .. }) | Cut::Parts(_, whole) => whole.normal(),
+        }
     }
 
     /// Which patches lie on input polygon number `polygon`.
     pub fn on_polygon(&self, polygon: u32) -> Range<usize> {
-        let grid = &self.grids[polygon as usize];
-        grid.first..grid.first + grid.divisions.count() as usize
+        match &self.cuts[polygon as usize] {
+            Cut::Grid(grid) => grid.first..grid.first + grid.divisions.count() as usize,
+            Cut::Parts(parts, _) => parts.clone(),
+        }
     }
 }
 
@@ -177,6 +218,13 @@ impl Divisions {
             Self::Triangle(k) => (k as f64).powi(2),
         }
     }
+}
+
+/// An input polygon, cut into a grid or by somebody else into some parts.
+#[derive(Clone, Debug)]
+enum Cut {
+    Grid(Grid),
+    Parts(Range<usize>, Polygon),
 }
 
 /// One input polygon and its patches, numbered from `first` row by row.

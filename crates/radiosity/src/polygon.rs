@@ -62,6 +62,16 @@ impl Polygon {
         (point - self.vertices[0]).dot(self.normal)
     }
 
+    /// How far a point of its plane is beyond one of its edges, in metres; negative for a point inside.
+    pub fn distance_outside(&self, point: DVec3) -> f64 {
+        let v = self.vertices();
+        let beyond = |k: usize| {
+            let (a, b) = (v[k], v[(k + 1) % v.len()]);
+            (point - a).cross(b - a).dot(self.normal) / a.distance(b)
+        };
+        (0..v.len()).map(beyond).fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// The largest distance between two vertices.
     pub fn diameter(&self) -> f64 {
         let v = self.vertices();

@@ -20,7 +20,7 @@ must be there:
   [camera]                             # found by itself if left out
   position = [8500, 500, 1700]
   target = [2200, 4600, 1600]
-  [solve]                              # patch_size, method, solver, accuracy, tolerance
+  [solve]                              # accuracy = \"1%\"; or patch_size, method …
   patch_size = 250
 
 \
@@ -44,6 +44,7 @@ luminous_flux in lm, and all is grey.
 Examples:
   fredholm radiosity                                  the Cornell box, as cornell-box.png
   fredholm radiosity room.toml --patch-size 0.1       a scene of yours, in patches of 10 cm
+  fredholm radiosity room.toml --accuracy 1%          all the rest is found for you
   fredholm radiosity --space p1 --patch-count 1000    linear on each patch: fewer of them do
   fredholm radiosity --false-colour -o map.png        radiosity in W/m² as a map
   fredholm radiosity oven.toml --thermal              temperatures and heat fluxes, with their errors
@@ -53,6 +54,22 @@ Examples:
 
 Exit codes: 0 solved; 1 an error; 2 a mistake on the command line; 3 all is written, but the
 residual did not reach the tolerance within the iterations; 4 no answer, or more than one (--thermal).";
+
+/// What says how to find the answer, and has no place where only its error is asked for.
+const WAYS: [&str; 12] = [
+    "thermal",
+    "patch_size",
+    "patch_count",
+    "method",
+    "space",
+    "solver",
+    "ambient",
+    "factor_accuracy",
+    "tolerance",
+    "iterations",
+    "frames",
+    "gather",
+];
 
 /// Options of `fredholm radiosity`. What is `None` is left to the scene file, and then to a default.
 #[derive(Debug, Args)]
@@ -108,9 +125,19 @@ pub struct Radiosity {
     #[arg(long, requires = "frames", help_heading = "Equation")]
     pub ambient: bool,
 
+    /// The error that the light may have, such as 1%: mesh, form factors and iterations are found for it
+    #[arg(
+        long,
+        value_name = "PERCENT",
+        value_parser = percent,
+        conflicts_with_all = WAYS,
+        help_heading = "Equation"
+    )]
+    pub accuracy: Option<f64>,
+
     /// The standard error that the form factors of a patch may have in sum [default: 1e-3]
     #[arg(long, value_name = "ERROR", value_parser = positive, help_heading = "Equation")]
-    pub accuracy: Option<f64>,
+    pub factor_accuracy: Option<f64>,
 
     /// The residual at which to stop, relative to the brightest emission [default: 1e-6]
     #[arg(long, value_name = "RESIDUAL", value_parser = positive, help_heading = "Equation")]
@@ -181,6 +208,21 @@ pub struct Radiosity {
     /// What is known of each patch, as a table or as NumPy arrays
     #[arg(long, value_name = "FILE.csv|.npz", value_parser = patches, help_heading = "Output")]
     pub patches: Option<PathBuf>,
+}
+
+impl Radiosity {
+    /// Whether the command line says how to find the answer, so that a scene file's accuracy is not meant.
+    pub fn has_ways(&self) -> bool {
+        self.patch_size.is_some()
+            || self.patch_count.is_some()
+            || self.method.is_some()
+            || self.space != Space::P0
+            || self.solver.is_some()
+            || self.factor_accuracy.is_some()
+            || self.tolerance.is_some()
+            || self.iterations.is_some()
+            || self.frames.is_some()
+    }
 }
 
 /// A number of every patch.
@@ -299,6 +341,12 @@ fn size(text: &str) -> Result<Size, String> {
         .ok_or_else(|| {
             format!("write width and height as 640x480, not more than {MOST_PIXELS} pixels in all")
         })
+}
+
+/// A part of one: 1%, or 0.01.
+fn percent(text: &str) -> Result<f64, String> {
+    radiosity::scene::percent(text)
+        .ok_or_else(|| "write a percentage such as 1%, above 0 and below 100".to_owned())
 }
 
 fn png(text: &str) -> Result<PathBuf, String> {

@@ -1,5 +1,6 @@
 //! The walk: a scene becomes patches, form factors, a solved field, a picture and files.
 
+mod accuracy;
 pub mod args;
 mod domain;
 mod frames;
@@ -75,6 +76,9 @@ fn walk<V: Colour>(
     args: &Radiosity,
     start: Instant,
 ) -> Result<Ending> {
+    if let Some(accuracy) = args.accuracy.or(wishes.accuracy.filter(|_| !args.has_ways())) {
+        return accuracy::walk(scene, units, accuracy, args, start);
+    }
     picture::check_map(args.map, units)?;
     let mut seconds = Seconds { load: start.elapsed().as_secs_f64(), ..Seconds::default() };
     let settings = Settings::new(args, wishes, args.scene.as_deref().unwrap_or(Path::new("")))?;

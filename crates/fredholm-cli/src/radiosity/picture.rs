@@ -8,22 +8,29 @@ use anyhow::{Result, bail};
 use fredholm::value::Value;
 use image::RgbImage;
 use radiosity::patches::Patches;
+use radiosity::polygon::Polygon;
 use radiosity::render::{
     Colour, Exposure, Picture, Preview, Scale, View, false_colour, final_picture, map_of_values,
 };
-use radiosity::scene::{Camera, Units};
+use radiosity::scene::{Camera, Scene, Units};
 use radiosity::solve::Solution;
+use radiosity::visibility::Visibility;
 use std::f64::consts::FRAC_1_PI;
 
 /// What the map shows; its letters are in Latin-1.
-const TITLE: &str = "radiosity, W/m² (luminance of the colours)";
+pub const TITLE: &str = "radiosity, W/m² (luminance of the colours)";
 
 /// Where the scene is looked at from, and how finely.
 pub fn view<V>(args: &Radiosity, domain: &Domain<'_, V>) -> View {
+    view_of(args, domain.scene, &domain.polygons, &domain.visibility)
+}
+
+/// The same for a scene that is not cut into patches.
+pub fn view_of<V>(args: &Radiosity, scene: &Scene<V>, polygons: &[Polygon], visibility: &Visibility) -> View {
     let aspect = args.size.width as f64 / args.size.height as f64;
-    let automatic = || Camera::automatic(&domain.polygons, &domain.visibility, aspect);
+    let automatic = || Camera::automatic(polygons, visibility, aspect);
     View {
-        camera: domain.scene.camera.unwrap_or_else(automatic),
+        camera: scene.camera.unwrap_or_else(automatic),
         width: args.size.width,
         height: args.size.height,
         samples: args.samples,

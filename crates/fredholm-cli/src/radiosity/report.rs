@@ -10,7 +10,7 @@ use fredholm::value::Value;
 use radiosity::closure::Closure;
 use radiosity::elements::Space;
 use radiosity::patches::Patches;
-use radiosity::scene::Units;
+use radiosity::scene::{Scene, Units};
 use radiosity::solve::Solution;
 use serde::Serialize;
 use std::f64::consts::PI;
@@ -91,7 +91,8 @@ pub struct Named {
 }
 
 impl Named {
-    fn new(units: Units) -> Self {
+    /// Of light.
+    pub fn new(units: Units) -> Self {
         let (exitance, irradiance) = (units.exitance(), units.irradiance());
         Self {
             length: "m",
@@ -123,6 +124,13 @@ pub struct Surface {
     /// B/π, as a number in cd/m².
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mean_luminance: Option<f64>,
+}
+
+impl Surface {
+    /// Whether no light reaches it.
+    pub fn is_dark(&self) -> bool {
+        self.mean_irradiance.iter().all(|h| *h == 0.0)
+    }
 }
 
 impl Report {
@@ -172,17 +180,28 @@ impl Report {
             seconds,
             peak_memory_bytes: memory::peak(),
             units: Named::new(units),
-            surfaces: surfaces(domain, units, solution),
+            surfaces: surfaces(
+                domain.scene,
+                &domain.patches,
+                units,
+                (&solution.radiosity, &solution.irradiance),
+            ),
             files,
         }
     }
 }
 
-fn surfaces<V: Value>(domain: &Domain<'_, V>, units: Units, solution: &Solution<V>) -> Vec<Surface> {
+/// The means over each surface of radiosities and irradiances of patches.
+pub fn surfaces<V: Value>(
+    scene: &Scene<V>,
+    patches: &Patches<V>,
+    units: Units,
+    (radiosity, irradiance): (&[V], &[V]),
+) -> Vec<Surface> {
     let is_seen = units == Units::Photometric;
-    let radiosity = totals(domain, &solution.radiosity);
-    let irradiance = totals(domain, &solution.irradiance);
-    let means = radiosity.into_iter().zip(irradiance).zip(&domain.scene.surfaces);
+    let radiosity = totals(scene, patches, radiosity);
+    let irradiance = totals(scene, patches, irradiance);
+    let means = radiosity.into_iter().zip(irradiance).zip(&scene.surfaces);
     means
         .map(|((radiosity, irradiance), surface)| {
             let area = surface.area();
@@ -201,9 +220,9 @@ fn surfaces<V: Value>(domain: &Domain<'_, V>, units: Units, solution: &Solution<
 }
 
 /// ∫ over each surface of what is constant on each patch.
-fn totals<V: Value>(domain: &Domain<'_, V>, values: &[V]) -> Vec<V> {
-    let mut totals = vec![V::splat(0.0); domain.scene.surfaces.len()];
-    let Patches { areas, surface, .. } = &domain.patches;
+fn totals<V: Value>(scene: &Scene<V>, patches: &Patches<V>, values: &[V]) -> Vec<V> {
+    let mut totals = vec![V::splat(0.0); scene.surfaces.len()];
+    let Patches { areas, surface, .. } = patches;
     for ((value, area), &surface) in values.iter().zip(areas).zip(surface) {
         totals[surface as usize] += *value * *area;
     }

@@ -48,7 +48,7 @@ impl Settings {
             solver: args.solver.or(solver).unwrap_or(Solver::GaussSeidel),
             patch_size: size,
             patch_count: args.patch_count.unwrap_or(PATCHES),
-            accuracy: args.accuracy.or(wishes.accuracy).unwrap_or(1e-3),
+            accuracy: args.factor_accuracy.or(wishes.factor_accuracy).unwrap_or(1e-3),
             tolerance: args.tolerance.or(wishes.tolerance).unwrap_or(1e-6),
             iterations: args.iterations,
             ambient: args.ambient,

@@ -3,29 +3,32 @@
 use super::report::{Report, Surface};
 use super::timing::Seconds;
 use crate::text::{self, Digits};
-use std::f64::consts::PI;
+use std::f64::consts::FRAC_1_PI;
+use std::path::PathBuf;
 
 /// The table, a line per matter.
 pub fn table(report: &Report) -> String {
     let matters = text::lines(&lines(report));
-    format!("{}: {} with {}\n\n{matters}{}", report.scene, report.method, report.solver, surfaces(report))
+    let surfaces = of_surfaces(&report.surfaces, |_| {
+        [1.0, FRAC_1_PI].map(|part| part * report.error_bound.unwrap_or(0.0))
+    });
+    format!("{}: {} with {}\n\n{matters}{}", report.scene, report.method, report.solver, surfaces)
 }
 
-/// What a lighting designer asks of each surface; nothing where the units are watts.
-fn surfaces(report: &Report) -> String {
+/// What a lighting designer asks of each surface; nothing where the units are watts. `errors` are those of
+/// illuminances and luminances up to the two that it is given.
+pub fn of_surfaces(surfaces: &[Surface], errors: impl Fn([f64; 2]) -> [f64; 2]) -> String {
     let header = ["surface", "area, m²", "illuminance, lx", "luminance, cd/m²"].map(str::to_owned);
     let numbers = |surface: &Surface| Some((surface.mean_illuminance?, surface.mean_luminance?));
-    let known: Vec<_> = report.surfaces.iter().filter_map(|s| numbers(s).map(|(h, l)| (s, h, l))).collect();
+    let known: Vec<_> = surfaces.iter().filter_map(|s| numbers(s).map(|(h, l)| (s, h, l))).collect();
     if known.is_empty() {
         return String::new();
     }
-    let bound = report.error_bound.unwrap_or(0.0);
-    let digits = |of: fn(&(&Surface, f64, f64)) -> f64, error: f64| {
-        let largest = known.iter().map(of).fold(0.0, f64::max);
-        // Patches are of a size, whatever the solver knows: five digits are more than anyone has use for.
-        Digits::new(largest, error.max(1e-4 * largest))
-    };
-    let (lux, candela) = (digits(|known| known.1, bound), digits(|known| known.2, bound / PI));
+    let largest = known.iter().fold([0.0, 0.0], |[h, l], known| [known.1.max(h), known.2.max(l)]);
+    let errors = errors(largest);
+    // Patches are of a size, whatever the solver knows: five digits are more than anyone has use for.
+    let digits = |k: usize| Digits::new(largest[k], errors[k].max(1e-4 * largest[k]));
+    let (lux, candela) = (digits(0), digits(1));
     let row = |(surface, h, l): &(&Surface, f64, f64)| {
         vec![surface.name.clone(), short(surface.area), lux.write(*h), candela.write(*l)]
     };
@@ -53,15 +56,15 @@ fn lines(report: &Report) -> Vec<(&'static str, String)> {
         lines.push(("memory", format!("{} MB at most", grouped(bytes >> 20))));
     }
     if report.dark {
-        lines.push((
-            "light",
-            "NONE reaches any surface: do the faces of the lamps look the wrong way?".to_owned(),
-        ));
+        lines.push(("light", DARK.to_owned()));
     }
     lines.push(("time", time(&report.seconds)));
-    lines.push(("written", written(report)));
+    lines.push(("written", written(&report.files)));
     lines
 }
+
+/// What is said where no surface is lit.
+pub const DARK: &str = "NONE reaches any surface: do the faces of the lamps look the wrong way?";
 
 fn space(report: &Report) -> String {
     let k = report.space.trim_start_matches('p');
@@ -126,7 +129,7 @@ fn short(number: f64) -> String {
 }
 
 /// The stages that took any time worth a word, and their sum.
-fn time(seconds: &Seconds) -> String {
+pub fn time(seconds: &Seconds) -> String {
     let stages = [
         ("load", seconds.load),
         ("patches", seconds.patches),
@@ -143,8 +146,8 @@ fn time(seconds: &Seconds) -> String {
 }
 
 /// The files, of which frames are many.
-fn written(report: &Report) -> String {
-    let names: Vec<String> = report.files.iter().map(|file| file.display().to_string()).collect();
+pub fn written(files: &[PathBuf]) -> String {
+    let names: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
     match names.as_slice() {
         [] => "no file".to_owned(),
         [first, .., last] if names.len() > 6 => format!("{} files: {first} … {last}", names.len()),

@@ -54,8 +54,7 @@ pub(super) fn bound<V: Value>(field: &Field<'_, V>, report: &Report) -> Bound {
         let linked = square(rho * (seen + direct - coarse));
         [square(rho * (coarse - field.irradiance_with(face, point, view))), linked, unseen]
     };
-    let squares: Vec<[f64; 3]> =
-        points(field).into_par_iter().map_init(Default::default, look).collect();
+    let squares: Vec<[f64; 3]> = points(field).into_par_iter().map_init(Default::default, look).collect();
     let mean = |k: usize| (squares.iter().map(|s| s[k]).sum::<f64>() / squares.len() as f64).sqrt();
     let inverse = 1.0 / (1.0 - contraction(report)) / scale;
     Bound {

@@ -54,6 +54,16 @@ impl<V: Value> Field<'_, V> {
         self.irradiance_with(face, point, &mut View::default())
     }
 
+    /// The radiosity and the irradiance at points of faces, in W/m².
+    pub fn light(&self, points: impl Iterator<Item = (u32, DVec3)>) -> Vec<[V; 2]> {
+        let mut view = View::default();
+        let at = |(face, point): (u32, DVec3)| {
+            let irradiance = self.irradiance_with(face, point, &mut view);
+            [self.domain.emission(face) + self.domain.reflectance(face) * irradiance, irradiance]
+        };
+        points.map(at).collect()
+    }
+
     /// The error of the radiosity, as the residual of the equation tells it.
     pub fn bound(&self) -> Bound {
         self.bound

@@ -106,9 +106,10 @@ pub(super) fn means<V: Value>(tree: &Tree, cells: &[u32], u: &[V]) -> Vec<V> {
     let mut means = vec![V::splat(0.0); tree.nodes.len()];
     cells.iter().zip(u).for_each(|(cell, value)| means[*cell as usize] = *value);
     for (k, node) in tree.nodes.iter().enumerate().rev().filter(|(_, node)| !node.parts.is_empty()) {
-        let sum = node.parts.clone().fold(V::splat(0.0), |sum, part| {
-            sum + means[part as usize] * tree.node(part).area
-        });
+        let sum = node
+            .parts
+            .clone()
+            .fold(V::splat(0.0), |sum, part| sum + means[part as usize] * tree.node(part).area);
         means[k] = sum * (1.0 / node.area);
     }
     means

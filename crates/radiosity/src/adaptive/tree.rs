@@ -21,7 +21,7 @@ pub(super) struct Node {
 #[derive(Clone, Debug)]
 pub(super) struct Tree {
     pub nodes: Vec<Node>,
-    }
+}
 
 impl Tree {
     /// The faces, each in parts that are about as long as wide, and these in cells.
@@ -86,7 +86,7 @@ impl Tree {
     pub fn patch_at(&self, face: u32, point: DVec3) -> u32 {
         let mut node = face;
         while !self.is_patch(node) {
-            let nearest = |part: &u32| outside(&self.node(*part).polygon, point);
+            let nearest = |part: &u32| self.node(*part).polygon.distance_outside(point);
             let parts = self.node(node).parts.clone();
             node = parts.min_by(|a, b| nearest(a).total_cmp(&nearest(b))).unwrap_or(node);
         }
@@ -103,16 +103,6 @@ impl Node {
     pub fn local(&self, point: DVec3) -> DVec2 {
         inverse_bilinear(&self.polygon, point)
     }
-}
-
-/// How far a point of the plane is outside of a polygon; negative inside.
-fn outside(polygon: &Polygon, point: DVec3) -> f64 {
-    let v = polygon.vertices();
-    let beyond = |k: usize| {
-        let (a, b) = (v[k], v[(k + 1) % v.len()]);
-        -(b - a).cross(point - a).dot(polygon.normal()) / a.distance(b)
-    };
-    (0..v.len()).map(beyond).fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// A quadrilateral longer than wide in as many pieces side by side as make them square.

@@ -92,9 +92,9 @@ impl<'a> Outlooks<'a> {
     /// What a polygon that may hide something of a face stands for: its body as one, or some sides.
     fn names(&self, id: u32, target: usize) -> Vec<Key> {
         let face = &self.faces[target];
-        let in_front =
-            |vertices: &[DVec3]| vertices.iter().all(|v| face.height_of(*v) >= -self.touch);
-        let solid = self.blockers.body[id as usize].and_then(|body| self.blockers.solids[body as usize].as_ref());
+        let in_front = |vertices: &[DVec3]| vertices.iter().all(|v| face.height_of(*v) >= -self.touch);
+        let solid =
+            self.blockers.body[id as usize].and_then(|body| self.blockers.solids[body as usize].as_ref());
         if solid.is_some_and(|solid| in_front(&solid.vertices)) {
             return vec![(id, None)];
         }
@@ -260,7 +260,11 @@ fn hidden(piece: Outline, planes: &[DVec3], normal: DVec3, room: &mut [Outline; 
     if later.is_empty() {
         return part.form_factor(normal);
     }
-    part.uncrowded().into_iter().filter(|half| !half.is_empty()).map(|half| hidden(half, later, normal, room)).sum()
+    part.uncrowded()
+        .into_iter()
+        .filter(|half| !half.is_empty())
+        .map(|half| hidden(half, later, normal, room))
+        .sum()
 }
 
 /// Leaves what is not above all planes.
@@ -304,9 +308,8 @@ impl Hider {
                 if height.abs() <= touch || (*one_sided && height < 0.0) {
                     planes.push(NOTHING);
                 } else {
-                    planes.extend(
-                        outline.edges().map(|(from, to)| (to - x).cross(from - x) * height.signum()),
-                    );
+                    planes
+                        .extend(outline.edges().map(|(from, to)| (to - x).cross(from - x) * height.signum()));
                 }
             }
         }

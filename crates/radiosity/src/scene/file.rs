@@ -22,8 +22,9 @@
 //! patch_size = 20
 //! method = "galerkin"
 //! solver = "gauss-seidel"
-//! accuracy = 1e-3
+//! factor_accuracy = 1e-3
 //! tolerance = 1e-6
+//! accuracy = "1%"                       # in place of all of these
 //! ```
 
 use super::error::{Error, Place, Problem};
@@ -165,6 +166,32 @@ pub(super) fn positive<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Opt
     } else {
         Err(D::Error::custom(format!("{value} is not a positive number; give one, or leave the entry out")))
     }
+}
+
+/// A part of one above 0 and below 1, written as `1%` or `0.01`.
+pub fn percent(text: &str) -> Option<f64> {
+    let number = |text: &str| text.trim().parse::<f64>().ok();
+    let part = match text.trim().strip_suffix('%') {
+        Some(percent) => number(percent)? / 100.0,
+        None => number(text)?,
+    };
+    (part > 0.0 && part < 1.0).then_some(part)
+}
+
+/// The same in a file, as text or as a number.
+pub(super) fn part<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Written {
+        Text(String),
+        Number(f64),
+    }
+    let text = match Written::deserialize(deserializer)? {
+        Written::Text(text) => text,
+        Written::Number(number) => number.to_string(),
+    };
+    let wrong = || D::Error::custom(format!("{text} is no accuracy; give a percentage such as \"1%\""));
+    percent(&text).ok_or_else(wrong).map(Some)
 }
 
 /// Light in lumens.

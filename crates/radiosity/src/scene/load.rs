@@ -39,9 +39,12 @@ pub struct SolveOptions {
     pub method: Option<String>,
     /// The relaxation or the direct solver, by name.
     pub solver: Option<String>,
-    /// The error of a form factor that is aimed at.
-    #[serde(deserialize_with = "file::positive")]
+    /// The error that the light may have, as a part of one.
+    #[serde(deserialize_with = "file::part")]
     pub accuracy: Option<f64>,
+    /// The standard error that the form factors of a patch may have in sum.
+    #[serde(deserialize_with = "file::positive")]
+    pub factor_accuracy: Option<f64>,
     /// The residual at which to stop, relative to the source.
     #[serde(deserialize_with = "file::positive")]
     pub tolerance: Option<f64>,

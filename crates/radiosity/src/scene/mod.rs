@@ -35,6 +35,7 @@ pub use cut::cut;
 pub use error::{Error, Place, Problem, Warning};
 pub use examine::{Component, Defect, Finding, Report, examine};
 pub use face::Face;
+pub use file::percent;
 pub use load::{Loaded, SolveOptions, load, load_in, load_unlit};
 pub use photometric::Units;
 pub use thermal::{Thermal, ThermalScene, load_thermal};

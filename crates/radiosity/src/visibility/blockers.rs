@@ -212,7 +212,8 @@ impl<'a> Mesh<'a> {
             open[*c as usize].extend(edges.map(|(u, v)| (v, u)));
         }
         let caps: Vec<_> = open.iter().map(|edges| self.cap(edges)).collect();
-        let closed: Vec<bool> = open.iter().zip(&caps).map(|(o, cap)| o.is_empty() || cap.is_some()).collect();
+        let closed: Vec<bool> =
+            open.iter().zip(&caps).map(|(o, cap)| o.is_empty() || cap.is_some()).collect();
         let mut boxes = vec![bounds(std::iter::empty()); count as usize];
         for (face, c) in self.faces.iter().zip(&component) {
             let [low, high] = &mut boxes[*c as usize];

@@ -1,0 +1,104 @@
+//! The numbers of a run to an accuracy: what `--json` writes and the table shows.
+
+use crate::radiosity::memory;
+use crate::radiosity::report::{Named, Surface};
+use crate::radiosity::timing::Seconds;
+use radiosity::adaptive::Round;
+use radiosity::scene::{Scene, Units};
+use serde::Serialize;
+use std::path::PathBuf;
+
+/// The numbers of a run, in the order of the JSON. Errors are relative: of the mean square over all surfaces, to that of the
+/// light that they reflect.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// What the scene is called.
+    pub scene: String,
+    /// `met`, or `not met`.
+    pub outcome: &'static str,
+    /// What was asked for.
+    pub accuracy: f64,
+    /// What the answer has: the sum of its three parts.
+    pub error: f64,
+    /// Of the mesh.
+    pub discretisation_error: f64,
+    /// Of the form factors.
+    pub form_factor_error: f64,
+    /// Of the iteration.
+    pub iteration_error: f64,
+    /// Cells of the last mesh.
+    pub cells: usize,
+    /// Form factors of the last mesh.
+    pub form_factors: usize,
+    /// The meshes on the way, and the last one.
+    pub rounds: Vec<Mesh>,
+    /// Whether no light at all reaches any surface.
+    pub dark: bool,
+    /// Where the time went.
+    pub seconds: Seconds,
+    /// The most memory used at once.
+    pub peak_memory_bytes: Option<u64>,
+    /// What the numbers are in.
+    pub units: Named,
+    /// Means over each surface.
+    pub surfaces: Vec<Surface>,
+    /// The files written.
+    pub files: Vec<PathBuf>,
+}
+
+/// A mesh and the error on it.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Mesh {
+    /// How many cells.
+    pub cells: usize,
+    /// How many form factors.
+    pub form_factors: usize,
+    /// The whole error.
+    pub error: f64,
+}
+
+impl Report {
+    /// The numbers of a solved scene.
+    pub fn new<V>(
+        scene: &Scene<V>,
+        accuracy: f64,
+        rounds: &[Round],
+        (units, surfaces): (Units, Vec<Surface>),
+        seconds: Seconds,
+        files: Vec<PathBuf>,
+    ) -> Self {
+        let mesh = |round: &Round| Mesh {
+            cells: round.cells,
+            form_factors: round.links,
+            error: round.bound.total(),
+        };
+        let rounds: Vec<(Round, Mesh)> = rounds.iter().map(|round| (*round, mesh(round))).collect();
+        let (bound, last) = rounds.last().map_or_else(
+            || (radiosity::adaptive::Bound::default(), Mesh { cells: 0, form_factors: 0, error: 0.0 }),
+            |(round, mesh)| (round.bound, *mesh),
+        );
+        Self {
+            scene: scene.name.clone(),
+            outcome: if last.error <= accuracy { "met" } else { "not met" },
+            accuracy,
+            error: last.error,
+            discretisation_error: bound.discretisation,
+            form_factor_error: bound.form_factors,
+            iteration_error: bound.iteration,
+            cells: last.cells,
+            form_factors: last.form_factors,
+            rounds: rounds.into_iter().map(|(_, mesh)| mesh).collect(),
+            dark: surfaces.iter().all(Surface::is_dark),
+            seconds,
+            peak_memory_bytes: memory::peak(),
+            units: Named::new(units),
+            surfaces,
+            files,
+        }
+    }
+
+    /// Whether the answer is as good as was asked.
+    pub fn is_met(&self) -> bool {
+        self.outcome == "met"
+    }
+}

@@ -1,0 +1,54 @@
+//! The numbers of a run to an accuracy as people read them.
+
+use super::report::Report;
+use crate::radiosity::table::{DARK, grouped, of_surfaces, time, written};
+use crate::text;
+
+/// The table, a line per matter.
+pub fn table(report: &Report) -> String {
+    let matters = text::lines(&lines(report));
+    let asked = percent(report.accuracy);
+    let surfaces = of_surfaces(&report.surfaces, |largest| largest.map(|number| report.error * number));
+    format!("{}: to an accuracy of {asked}\n\n{matters}{surfaces}", report.scene)
+}
+
+fn lines(report: &Report) -> Vec<(&'static str, String)> {
+    let met = if report.is_met() { "" } else { "; NOT MET: no more cells fit" };
+    let mut lines = vec![
+        (
+            "error",
+            format!("{} of the light that surfaces reflect, in the mean square{met}", percent(report.error)),
+        ),
+        ("of the mesh", percent(report.discretisation_error)),
+        ("form factors", percent(report.form_factor_error)),
+        ("iteration", percent(report.iteration_error)),
+        ("mesh", mesh(report)),
+    ];
+    if let Some(bytes) = report.peak_memory_bytes {
+        lines.push(("memory", format!("{} MB at most", grouped(bytes >> 20))));
+    }
+    if report.dark {
+        lines.push(("light", DARK.to_owned()));
+    }
+    lines.push(("time", time(&report.seconds)));
+    lines.push(("written", written(&report.files)));
+    lines
+}
+
+fn mesh(report: &Report) -> String {
+    let (cells, factors) = (grouped(report.cells as u64), grouped(report.form_factors as u64));
+    let rounds = report.rounds.len();
+    format!(
+        "{cells} cells with {factors} form factors, after {rounds} round{}",
+        if rounds == 1 { "" } else { "s" }
+    )
+}
+
+fn percent(part: f64) -> String {
+    let percent = 100.0 * part;
+    match percent {
+        0.0 => "0 %".to_owned(),
+        small if small < 0.001 => format!("{small:.0e} %"),
+        _ => format!("{} %", text::short((percent * 1000.0).round() / 1000.0)),
+    }
+}
