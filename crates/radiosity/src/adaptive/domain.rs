@@ -1,7 +1,7 @@
 //! What does not change while the mesh is refined: faces, their materials, and what hides what.
 
 use super::links::{Coarseness, Descent, Link};
-use super::tree::Tree;
+use super::tree::{Node, Tree};
 use crate::form_factor::outlook::{Outlook, Outlooks, Seen, View};
 use crate::polygon::Polygon;
 use crate::scene::{Scene, Surface};
@@ -20,6 +20,9 @@ pub struct Domain<'a, V> {
     all: Outlooks<'a>,
     outlooks: Vec<OnceLock<Outlook>>,
 }
+
+/// How far beside the centre of a cell, on the way to a corner.
+const BESIDE: f64 = 0.9;
 
 /// Lamps are looked at from every point.
 const MOST_LAMPS: usize = 64;
@@ -70,6 +73,15 @@ impl<'a, V: Value> Domain<'a, V> {
     /// What the points of a face see.
     fn outlook(&self, face: u32) -> &Outlook {
         self.outlooks[face as usize].get_or_init(|| self.all.from(face as usize))
+    }
+
+    /// The point of a cell at which the equation is to hold: its centre, or where something stands on that a point beside it.
+    pub(super) fn node_of(&self, cell: &Node) -> DVec3 {
+        let outlook = self.outlook(cell.face);
+        let centre = cell.polygon.centroid();
+        let beside = cell.polygon.vertices().iter().map(|v| centre.lerp(*v, BESIDE));
+        let mut points = std::iter::once(centre).chain(beside);
+        points.find(|x| !outlook.is_buried(*x)).unwrap_or(centre)
     }
 
     /// The parts of the tree that a point of a face sees, and their form factors.

@@ -45,7 +45,7 @@ impl Mesh {
         let coarseness = Coarseness { variation: &variation, tolerance };
         let look = |view: &mut _, cell: &u32| {
             let node = tree.node(*cell);
-            domain.links(&tree, coarseness, (node.face, node.polygon.centroid()), view)
+            domain.links(&tree, coarseness, (node.face, domain.node_of(node)), view)
         };
         let links: Vec<Vec<Link>> = cells.par_iter().map_init(Default::default, look).collect();
         let count = links.iter().map(Vec::len).sum();

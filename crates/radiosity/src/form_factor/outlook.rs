@@ -127,6 +127,14 @@ impl<'a> Outlooks<'a> {
 /// Heights over planes below this part of the scene are rounding, or the thickness of what only touches.
 const TOUCH: f64 = 1e-9;
 
+impl Outlook {
+    /// Whether a point is under a body that stands on the face, and sees nothing but its inside.
+    pub fn is_buried(&self, x: DVec3) -> bool {
+        let under = |hider: &Hider| matches!(hider, Hider::Body(solid) if solid.in_front(x, self.touch) == 0);
+        self.hiders.iter().any(under)
+    }
+}
+
 /// What a point of a face sees; made once, and moved from point to point.
 #[derive(Debug, Default)]
 pub(crate) struct View {
