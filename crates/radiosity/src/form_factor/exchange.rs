@@ -50,14 +50,16 @@ impl Unoccluded {
     /// ∫_{P_i} ∫_{P_j} cosθ cosθ′ / (π r²), in m², where both are fronts; 0 where they do not face each other.
     pub fn between(&self, patches: &[Polygon], i: usize, j: usize) -> Exchange {
         let (a, b) = (&patches[i], &patches[j]);
-        let (side_a, side_b) = (side_of(a, b), side_of(b, a));
-        if side_a == Side::Behind || side_b == Side::Behind {
-            return Exchange::default();
-        }
+        Facing::new(a, b).map_or_else(Exchange::default, |facing| self.facing(patches, i, j, facing))
+    }
+
+    /// The same for two patches that are known to face each other.
+    pub(super) fn facing(&self, patches: &[Polygon], i: usize, j: usize, facing: Facing) -> Exchange {
+        let (a, b) = (&patches[i], &patches[j]);
         let distance = a.centroid().distance(b.centroid());
         let relative = distance / self.diameters[i].max(self.diameters[j]);
         let (few, many) = (&self.few, &self.many);
-        if side_a == Side::Across || side_b == Side::Across || relative < many.0 {
+        if facing == Facing::Partly || relative < many.0 {
             return self.near(a, b);
         }
         let head_on = a.area() * b.area() / (PI * distance * distance);
@@ -194,9 +196,26 @@ pub(crate) fn side_of(a: &Polygon, b: &Polygon) -> Side {
     }
 }
 
+/// How two polygons face each other of which neither is wholly behind the other's plane.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Facing {
+    Wholly,
+    Partly,
+}
+
+impl Facing {
+    pub fn new(a: &Polygon, b: &Polygon) -> Option<Self> {
+        match (side_of(a, b), side_of(b, a)) {
+            (Side::Behind, _) | (_, Side::Behind) => None,
+            (Side::Before, Side::Before) => Some(Self::Wholly),
+            _ => Some(Self::Partly),
+        }
+    }
+}
+
 /// Whether some of a may face some of b: neither lies wholly behind the other's plane.
 pub fn may_see(a: &Polygon, b: &Polygon) -> bool {
-    side_of(a, b) != Side::Behind && side_of(b, a) != Side::Behind
+    Facing::new(a, b).is_some()
 }
 
 /// Part of the distance within which a point counts as on a plane: far above the rounding of a patch's corners

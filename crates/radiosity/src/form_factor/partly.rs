@@ -203,7 +203,7 @@ impl Partly<'_> {
             }
         }
         pieces.retain(|piece| {
-            let scene = Scene { eyes: piece.corners(), target: &self.target, reach: self.reach };
+            let scene = Scene::new(piece.corners(), &self.target, self.reach);
             !self.hiders.iter().all(|hider| hider.misses(&scene))
         });
         pieces

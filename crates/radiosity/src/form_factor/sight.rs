@@ -10,6 +10,7 @@ use crate::polygon::Polygon;
 use crate::visibility::blockers::Blockers;
 use crate::visibility::solid::{Plane, Solid};
 use glam::DVec3;
+use std::borrow::Cow;
 
 /// What is seen of a target.
 pub(super) enum Sight {
@@ -49,14 +50,17 @@ impl Look<'_> {
         let (a, b) = (self.outer, self.target);
         let reach = a.centroid().distance(b.centroid()) + a.diameter() + b.diameter();
         let (mut views, mut hidden) = (Vec::new(), true);
-        for part in a.in_front_of(b) {
+        // Mostly the whole is in front, and need not be copied.
+        let whole = a.vertices().iter().all(|v| b.height_of(*v) >= 0.0);
+        let parts = if whole { Cow::Borrowed(std::slice::from_ref(a)) } else { Cow::Owned(a.in_front_of(b)) };
+        for part in parts.iter() {
             let mut target = Outline::new(b.vertices());
             target.keep_above(|v| part.height_of(v));
             if target.is_empty() {
                 continue;
             }
             self.parts(Piece::new(part.vertices()), reach, |eyes| {
-                let hiders = self.hiders(&Scene { eyes: eyes.corners(), target: &target, reach });
+                let hiders = self.hiders(&Scene::new(eyes.corners(), &target, reach));
                 hidden &= matches!(hiders.as_slice(), [hider] if hider.hides_all());
                 if !hiders.is_empty() {
                     views.push(View { eyes, target, hiders, reach });
@@ -80,6 +84,9 @@ impl Look<'_> {
             if own.clone().count() <= MOST_CUTS && cuts.len() <= MOST_CUTS {
                 cuts.extend(own);
             }
+        }
+        if cuts.is_empty() {
+            return visit(piece);
         }
         let mut parts = vec![piece];
         for plane in cuts {
@@ -134,6 +141,11 @@ impl Look<'_> {
         let polygon = &self.blockers.polygons[id as usize];
         let body = self.blockers.body[id as usize];
         let one_sided = body.is_some_and(|body| self.blockers.is_outside(self.face, self.outer, body));
+        let behind =
+            |end: &Polygon| polygon.vertices().iter().all(|v| end.height_of(*v) <= ROUNDING * scene.reach);
+        if behind(self.outer) || behind(self.target) {
+            return None;
+        }
         let plane = Plane { normal: polygon.normal(), offset: polygon.normal().dot(polygon.vertices()[0]) };
         let in_front = is_before(scene.eyes, &plane, scene.reach);
         if one_sided && in_front == Some(false) {
