@@ -166,15 +166,15 @@ const LIMIT: f64 = 0.171_572_875_253_809_9;
 /// arctan(√z)/√z on [0, [`LIMIT`]] by powers of z, with an error of 3.5·10⁻¹⁷: its best polynomial of degree 10.
 const ARCTAN: [f64; 11] = [
     0.999_999_999_999_999_97,
-    -0.333_333_333_333_284_39,
-    0.199_999_999_988_551_10,
+    -0.333_333_333_333_284_4,
+    0.199_999_999_988_551_1,
     -0.142_857_141_809_764_67,
     0.111_111_061_804_559_45,
     -0.090_907_730_748_084_14,
     0.076_899_534_963_068_58,
-    -0.066_402_339_304_294_086,
+    -0.066_402_339_304_294_1,
     0.056_883_492_268_090_105,
-    -0.043_480_522_157_164_625,
+    -0.043_480_522_157_164_62,
     0.021_135_373_157_693_245,
 ];
 
@@ -192,7 +192,31 @@ fn dot(a: &Lanes, b: &Lanes) -> f64x8 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::hider::{Edge, Scene};
+    use super::super::shadow::{Room, Shadows};
     use super::*;
+
+    #[test]
+    fn eight_points_see_what_each_sees_alone() {
+        let p = |x, y, z| DVec3::new(x, y, z);
+        let target = Outline::new(&[p(0.0, 0.0, 2.0), p(0.0, 1.0, 2.0), p(1.0, 1.0, 2.0), p(1.0, 0.0, 2.0)]);
+        let eyes = [p(0.1, 0.2, 0.0), p(0.3, 0.2, 0.0), p(0.2, 0.4, 0.0)];
+        // A corner of the screen is before the target, and so one of each is cut off.
+        let screen = [p(0.3, 0.3, 1.0), p(5.0, 0.3, 1.0), p(5.0, 5.0, 1.0), p(0.3, 5.0, 1.0)];
+        let edges = (0..4).map(|k| Edge { from: screen[(k + 1) % 4], to: screen[k], inner: false });
+        let scene = Scene::new(&eyes, &target, 5.0);
+        let hider = Hider::of_edges(edges, &scene).ok().flatten().expect("something is hidden");
+        assert_eq!(hider.edges().len(), 2);
+        let points: [DVec3; 8] = std::array::from_fn(|k| eyes[0].lerp(eyes[1 + k % 2], k as f64 / 8.0));
+        let lanes: Lanes = std::array::from_fn(|axis| f64x8::new(points.map(|x| x[axis])));
+        let together =
+            hidden(&target, &hider, &lanes, DVec3::Z, &mut Bundles::default()).expect("they agree");
+        let shadows = Shadows { target, normal: DVec3::Z, hiders: &[hider] };
+        for (x, got) in points.iter().zip(together.to_array()) {
+            let alone = shadows.hidden(*x, &mut Room::default());
+            assert!(alone > 0.01 && (got - alone).abs() < 1e-15, "{got} is {alone}");
+        }
+    }
 
     #[test]
     fn the_angle_over_its_sine_is_exact_to_rounding_at_any_angle() {

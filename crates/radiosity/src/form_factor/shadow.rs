@@ -1,7 +1,7 @@
 //! The part of a polygon that others hide from a point x, and its form factor: clipped by the planes through x and the
 //! edges of what hides it, and given to Lambert's formula.
 //!
-//! What hides lies between the planes of the two polygons of a pair; then what is in the pyramid from x over it is hidden.
+//! What hides is in front of the polygon's plane, as x is; then all of the polygon in the pyramid from x over it is hidden.
 
 use super::bundle::Bundles;
 use super::hider::Hider;
