@@ -119,9 +119,7 @@ impl Hider {
             return Ok(None);
         }
         let mut hider = Self::EMPTY;
-        let mut seen = false;
         for edge in edges {
-            seen = true;
             match scene.inner(&edge) {
                 Inner::Nothing => return Ok(None),
                 Inner::All => (),
@@ -132,10 +130,11 @@ impl Hider {
                 }
             }
         }
-        Ok(seen.then_some(hider))
+        Ok(Some(hider))
     }
 
-    /// A body in front of the target, of whose planes none has eyes on either side.
+    /// A body in front of the target, of whose planes none has eyes on either side. To eyes that are before none it hides all:
+    /// they are under it, on what it stands on.
     pub fn of_solid(solid: &Solid, scene: &Scene<'_>) -> Result<Option<Self>, TooMuch> {
         let mut in_front = 0_u128;
         for (k, plane) in solid.planes.iter().enumerate() {
@@ -143,6 +142,9 @@ impl Hider {
                 Some(before) => in_front |= u128::from(before) << k,
                 None => return Err(TooMuch),
             }
+        }
+        if in_front == 0 {
+            return Ok(Some(Self::EMPTY));
         }
         let outline =
             solid.ridges.iter().filter_map(|ridge| ridge.on_outline(|side| in_front >> side & 1 == 1));

@@ -29,7 +29,7 @@ pub(super) struct View {
 }
 
 /// A body with more planes that cut the outer polygon is looked at side by side.
-const MOST_CUTS: usize = 3;
+const MOST_CUTS: usize = 4;
 
 /// Heights below this part of all lengths are rounding.
 const ROUNDING: f64 = 1e-12;
@@ -109,11 +109,19 @@ impl Look<'_> {
         (self.blockers.is_outside(self.face, self.outer, body) && in_front()).then_some(solid)
     }
 
+    /// Whether the outer polygon is a side of the convex body that another stands for: it hides nothing from there.
+    fn is_own(&self, id: u32) -> bool {
+        let body = self.blockers.body[id as usize];
+        body.is_some_and(|body| {
+            self.blockers.is_convex[body as usize] && self.blockers.body_of_face[self.face] == Some(body)
+        })
+    }
+
     /// What hides something of the target; one that hides all is alone.
     fn hiders(&self, scene: &Scene<'_>) -> Vec<Hider> {
         let mut hiders = Vec::new();
         let mut polygons = Vec::new();
-        for &id in self.found {
+        for &id in self.found.iter().filter(|&&id| !self.is_own(id)) {
             let hiding = match self.solid(id, scene.reach) {
                 Some(solid) => Hider::of_solid(solid, scene),
                 None => Err(TooMuch),
