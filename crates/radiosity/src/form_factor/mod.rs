@@ -20,6 +20,7 @@ mod outline;
 pub mod pairs;
 mod partly;
 mod piece;
+mod rules;
 pub(crate) mod sampled;
 mod shadow;
 mod sight;

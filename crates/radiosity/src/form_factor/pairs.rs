@@ -1,7 +1,8 @@
 //! A_i F_ij = ∫_{P_i} ∫_{P_j} cosθ cosθ′ V / (π r²), each with its error: in full sight by formula, in part by clipping.
 
 use super::exchange::{Facing, Unoccluded};
-use super::partly::{Pair, Partly};
+use super::partly::Partly;
+use super::rules::Pair;
 use super::shadow::Room;
 use super::sight::{Look, Sight, View};
 use crate::polygon::Polygon;

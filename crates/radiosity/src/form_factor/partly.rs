@@ -1,105 +1,16 @@
 //! ∫_{P_i} g(x) dx, where g(x) is the form factor from x to what is hidden of P_j: cut where g has kinks, and adaptive.
 
-use super::bundle::{self, Lanes};
+use super::bundle;
 use super::hider::{Hider, Scene};
 use super::kinks::{Kink, kinks};
 use super::outline::Outline;
 use super::piece::{Cell, Piece, area, halves};
+use super::rules::{Eight, Pair};
 use super::shadow::{Room, Shadows};
 use crate::view_factors::Exchange;
-use fredholm::quadrature::triangle;
 use glam::DVec3;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
-use wide::f64x8;
-
-/// A rule on a triangle with another of lower degree, whose difference is taken for its error.
-#[derive(Clone, Debug)]
-pub(super) struct Pair {
-    nodes: Vec<Node>,
-    /// The same nodes, eight at a time; the last is there again with no weight until there are eight.
-    eights: Vec<Eight>,
-    /// A rule of higher degree, for where the error is too large.
-    higher: Vec<Eight>,
-}
-
-/// Barycentric coordinates, the weight, and that of the lower rule.
-type Node = ([f64; 3], f64, f64);
-
-#[derive(Clone, Debug)]
-struct Eight {
-    coordinates: Lanes,
-    weight: f64x8,
-    lower: f64x8,
-}
-
-impl Eight {
-    fn new(nodes: &[Node]) -> Self {
-        let lanes = |part: &dyn Fn(&Node) -> f64| {
-            f64x8::new(std::array::from_fn(|k| part(&nodes[k.min(nodes.len() - 1)])))
-        };
-        let weights =
-            |part: &dyn Fn(&Node) -> f64| f64x8::new(std::array::from_fn(|k| nodes.get(k).map_or(0.0, part)));
-        Self {
-            coordinates: std::array::from_fn(|axis| lanes(&|node| node.0[axis])),
-            weight: weights(&|node| node.1),
-            lower: weights(&|node| node.2),
-        }
-    }
-
-    /// The nodes in a cell.
-    fn points(&self, [a, b, c]: &Cell) -> Lanes {
-        let [u, v, w] = self.coordinates;
-        std::array::from_fn(|axis| u * a[axis] + v * b[axis] + w * c[axis])
-    }
-}
-
-impl Pair {
-    /// For a relative tolerance.
-    pub fn new(tolerance: f64) -> Self {
-        let (nodes, higher) = match () {
-            () if tolerance > 1e-5 => (embedded(), of_degree(8)),
-            () if tolerance > 1e-8 => (of_degrees(8, 5), of_degree(14)),
-            () => (of_degrees(14, 10), of_degree(20)),
-        };
-        let eights = |nodes: &[Node]| nodes.chunks(8).map(Eight::new).collect();
-        Self { eights: eights(&nodes), higher: eights(&higher), nodes }
-    }
-}
-
-/// Radon's seven points of degree 5, and the centroid with the three nearer to the corners: degree 2.
-fn embedded() -> Vec<Node> {
-    let mut nodes = of_degrees(5, 1);
-    nodes.retain(|node| node.1 != 0.0);
-    let nearer = |node: &[f64; 3]| node.iter().any(|x| *x > 0.7);
-    let square = nodes.iter().find(|(x, ..)| nearer(x)).map_or(1.0, |(x, ..)| x.iter().map(|x| x * x).sum());
-    // w + 3v = 1 and w/9 + v Σλ² = 1/6.
-    let outer = (1.0 / 6.0 - 1.0 / 9.0) / (square - 1.0 / 3.0);
-    for (x, _, lower) in &mut nodes {
-        let central = x.iter().all(|x| (x - 1.0 / 3.0).abs() < 1e-9);
-        *lower = if central {
-            1.0 - 3.0 * outer
-        } else if nearer(x) {
-            outer
-        } else {
-            0.0
-        };
-    }
-    nodes
-}
-
-fn of_degrees(high: usize, low: usize) -> Vec<Node> {
-    let mut nodes = of_degree(high);
-    nodes.extend(of_degree(low).into_iter().map(|(x, w, _)| (x, 0.0, w)));
-    nodes
-}
-
-fn of_degree(degree: usize) -> Vec<Node> {
-    // Degrees up to 20 are in the table.
-    let rule = triangle(degree, [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
-    let points = rule.into_iter().flat_map(|rule| rule.nodes.into_iter().zip(rule.weights));
-    points.map(|([s, t], weight)| ([1.0 - s - t, s, t], 2.0 * weight, 0.0)).collect()
-}
 
 /// The hidden part of an exchange.
 pub(super) struct Partly<'a> {
