@@ -269,6 +269,20 @@ fn a_box_in_a_box_at_any_size() {
     }
 }
 
+#[test]
+fn a_block_hides_the_floor_that_it_stands_on() {
+    // The mesh of the floor does not know of the block: faces are under it in part.
+    for n in [1, 3] {
+        let mut faces = cuboid(n, true, |v| v);
+        let (side, room) = (2 * n * n, faces.len());
+        faces.extend(cuboid(2, false, |v| 0.5 * v - 0.5 * DVec3::Z));
+        let (floor, all) = (4 * side..5 * side, faces.len());
+        check(&faces, floor.clone(), 0..all, 0.75, &[1e-3, 1e-4]);
+        check(&faces, 0..floor.start, 0..all, 1.0, &[1e-3, 1e-4]);
+        check(&faces, floor.end..room, 0..all, 1.0, &[1e-3, 1e-4]);
+    }
+}
+
 /// Numbers that look random: multiples of an irrational number.
 fn numbers(seed: u64) -> impl FnMut(f64, f64) -> f64 {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15);

@@ -58,12 +58,26 @@ pub(super) struct Scene<'a> {
     pub target: &'a Outline,
     /// A length that no distance here is far above.
     pub reach: f64,
+    /// A point between the eyes, and one of the target.
+    middles: [DVec3; 2],
 }
 
 /// The part of the lengths' product by which a determinant may be wrong: what only touches a plane is on either side.
 const ROUNDING: f64 = 1e-12;
 
-impl Scene<'_> {
+impl<'a> Scene<'a> {
+    pub fn new(eyes: &'a [DVec3], target: &'a Outline, reach: f64) -> Self {
+        let middle = eyes.iter().sum::<DVec3>() / eyes.len() as f64;
+        let aim = target.vertices().sum::<DVec3>() / target.len() as f64;
+        Self { eyes, target, reach, middles: [middle, aim] }
+    }
+
+    /// Whether an edge has the middle of the target outside, from the middle of the eyes.
+    fn excludes_middle(&self, edge: &Edge) -> bool {
+        let [x, v] = self.middles;
+        edge.plane(x).dot(v - x) < 0.0
+    }
+
     fn inner(&self, edge: &Edge) -> Inner {
         let (mut above, mut below) = (0, 0);
         for &x in self.eyes {
@@ -96,11 +110,16 @@ impl Hider {
     };
 
     /// From its edges, of which those are left out that cut nothing; `None` if it hides nothing.
-    pub fn of_edges(edges: impl Iterator<Item = Edge>, scene: &Scene<'_>) -> Result<Option<Self>, TooMuch> {
+    pub fn of_edges(
+        edges: impl Iterator<Item = Edge> + Clone,
+        scene: &Scene<'_>,
+    ) -> Result<Option<Self>, TooMuch> {
+        // The edge that has nothing inside is mostly the one that the middles tell of, and most pairs are in full sight.
+        if edges.clone().any(|edge| scene.excludes_middle(&edge) && scene.inner(&edge) == Inner::Nothing) {
+            return Ok(None);
+        }
         let mut hider = Self::EMPTY;
-        let mut seen = false;
         for edge in edges {
-            seen = true;
             match scene.inner(&edge) {
                 Inner::Nothing => return Ok(None),
                 Inner::All => (),
@@ -111,10 +130,11 @@ impl Hider {
                 }
             }
         }
-        Ok(seen.then_some(hider))
+        Ok(Some(hider))
     }
 
-    /// A body in front of the target, of whose planes none has eyes on either side.
+    /// A body in front of the target, of whose planes none has eyes on either side. To eyes that are before none it hides all:
+    /// they are under it, on what it stands on.
     pub fn of_solid(solid: &Solid, scene: &Scene<'_>) -> Result<Option<Self>, TooMuch> {
         let mut in_front = 0_u128;
         for (k, plane) in solid.planes.iter().enumerate() {
@@ -122,6 +142,9 @@ impl Hider {
                 Some(before) => in_front |= u128::from(before) << k,
                 None => return Err(TooMuch),
             }
+        }
+        if in_front == 0 {
+            return Ok(Some(Self::EMPTY));
         }
         let outline =
             solid.ridges.iter().filter_map(|ridge| ridge.on_outline(|side| in_front >> side & 1 == 1));

@@ -10,6 +10,7 @@
 //! | point to patch, paper (3.3) | P0 collocation | [`FormFactors::point_to_patch`] |
 //! | patch to patch, paper (3.5) | P0 Galerkin | [`FormFactors::patch_to_patch`] |
 
+mod bundle;
 pub mod contour;
 pub mod exchange;
 mod hider;
@@ -20,6 +21,7 @@ pub(crate) mod outlook;
 pub mod pairs;
 mod partly;
 mod piece;
+mod rules;
 pub(crate) mod sampled;
 mod shadow;
 mod sight;

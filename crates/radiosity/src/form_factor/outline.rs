@@ -58,7 +58,7 @@ impl Outline {
     }
 
     /// Its edges, from vertex to vertex.
-    pub fn edges(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
+    pub fn edges(&self) -> impl Iterator<Item = (DVec3, DVec3)> + Clone {
         (0..self.count).map(|k| (self.vertex(k), self.vertex(k + 1)))
     }
 

@@ -1,15 +1,15 @@
 //! A_i F_ij = ∫_{P_i} ∫_{P_j} cosθ cosθ′ V / (π r²), each with its error: in full sight by formula, in part by clipping.
 
-use super::exchange::{Unoccluded, may_see};
-use super::partly::{Pair, Partly};
+use super::exchange::{Facing, Unoccluded};
+use super::partly::Partly;
+use super::rules::Pair;
 use super::shadow::Room;
 use super::sight::{Look, Sight, View};
 use crate::polygon::Polygon;
 use crate::view_factors::Exchange;
-use crate::visibility::End;
 use crate::visibility::blockers::Blockers;
 use crate::visibility::screens::Screens;
-use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+use crate::visibility::{Count, End};
 
 /// The exchanges between the faces of a scene.
 #[derive(Debug)]
@@ -22,7 +22,7 @@ pub struct Pairs<'a> {
     screens: Screens,
     ends: Vec<End>,
     rules: Pair,
-    counts: [AtomicU64; 3],
+    counts: [Count; 3],
 }
 
 /// How many pairs of faces that face each other are how.
@@ -56,36 +56,45 @@ impl<'a> Pairs<'a> {
 
     /// The pairs asked for so far.
     pub fn counts(&self) -> Counts {
-        let [clear, hidden, partly] = self.counts.each_ref().map(|count| count.load(Relaxed));
+        let [clear, hidden, partly] = self.counts.each_ref().map(Count::total);
         Counts { clear, hidden, partly }
     }
 
     /// The exchange of two faces, the same for (i, j) and (j, i).
     pub fn exchange(&self, i: usize, j: usize) -> Exchange {
         let (i, j) = (i.min(j), i.max(j));
-        if i == j || !may_see(&self.faces[i], &self.faces[j]) {
-            return Exchange::default();
-        }
+        let facing = Facing::new(&self.faces[i], &self.faces[j]).filter(|_| i != j);
+        let Some(facing) = facing else { return Exchange::default() };
         let areas = [i, j].map(|k| self.faces[k].area());
         let (outer, target) = if areas[0] <= areas[1] { (i, j) } else { (j, i) };
         let mut found = Vec::new();
-        self.screens.between(&self.ends[i], &self.ends[j], &mut found);
-        let look = || Look {
-            blockers: &self.blockers,
-            face: outer,
-            outer: &self.faces[outer],
-            target: &self.faces[target],
-            found: &found,
-        };
-        let sight = if found.is_empty() { Sight::Clear } else { look().sight() };
-        let whole = || self.unoccluded.between(self.faces, i, j);
+        let sight = self.sight(outer, target, &mut found);
+        let whole = || self.unoccluded.facing(self.faces, i, j, facing);
         let (kind, exchange) = match sight {
             Sight::Clear => (0, whole()),
             Sight::Hidden => (1, Exchange::default()),
             Sight::Partly(views) => (2, self.partly(outer, target, whole(), &views)),
         };
-        self.counts[kind].fetch_add(1, Relaxed);
+        self.counts[kind].add(1);
         exchange
+    }
+
+    /// What of a face is seen from another.
+    fn sight(&self, outer: usize, target: usize, found: &mut Vec<u32>) -> Sight {
+        let ends = [outer, target].map(|k| &self.ends[k]);
+        self.screens.between(ends, found);
+        let look = |found: &[u32]| {
+            let (blockers, outer_polygon) = (&self.blockers, &self.faces[outer]);
+            Look { blockers, face: outer, outer: outer_polygon, target: &self.faces[target], found }.sight()
+        };
+        if found.is_empty() {
+            return Sight::Clear;
+        }
+        match look(found) {
+            // Few bodies are seen past only by a plane that touches no ridge of theirs.
+            Sight::Partly(_) if self.screens.narrow(ends, found) => look(found),
+            sight => sight,
+        }
     }
 
     fn partly(&self, outer: usize, target: usize, whole: Exchange, views: &[View]) -> Exchange {

@@ -1,68 +1,16 @@
 //! ∫_{P_i} g(x) dx, where g(x) is the form factor from x to what is hidden of P_j: cut where g has kinks, and adaptive.
 
+use super::bundle;
 use super::hider::{Hider, Scene};
 use super::kinks::{Kink, kinks};
 use super::outline::Outline;
 use super::piece::{Cell, Piece, area, halves};
+use super::rules::{Eight, Pair};
 use super::shadow::{Room, Shadows};
 use crate::view_factors::Exchange;
-use fredholm::quadrature::triangle;
 use glam::DVec3;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
-
-/// A rule on a triangle with another of lower degree, whose difference is taken for its error.
-#[derive(Clone, Debug)]
-pub(super) struct Pair {
-    /// Barycentric coordinates, the weight, and that of the lower rule.
-    nodes: Vec<([f64; 3], f64, f64)>,
-}
-
-impl Pair {
-    /// For a relative tolerance.
-    pub fn new(tolerance: f64) -> Self {
-        match () {
-            () if tolerance > 1e-5 => Self::embedded(),
-            () if tolerance > 1e-8 => Self::of_degrees(8, 5),
-            () => Self::of_degrees(14, 10),
-        }
-    }
-
-    /// Radon's seven points of degree 5, and the centroid with the three nearer to the corners: degree 2.
-    fn embedded() -> Self {
-        let mut pair = Self::of_degrees(5, 1);
-        pair.nodes.retain(|node| node.1 != 0.0);
-        let nearer = |node: &[f64; 3]| node.iter().any(|x| *x > 0.7);
-        let square =
-            pair.nodes.iter().find(|(x, ..)| nearer(x)).map_or(1.0, |(x, ..)| x.iter().map(|x| x * x).sum());
-        // w + 3v = 1 and w/9 + v Σλ² = 1/6.
-        let outer = (1.0 / 6.0 - 1.0 / 9.0) / (square - 1.0 / 3.0);
-        for (x, _, lower) in &mut pair.nodes {
-            let central = x.iter().all(|x| (x - 1.0 / 3.0).abs() < 1e-9);
-            *lower = if central {
-                1.0 - 3.0 * outer
-            } else if nearer(x) {
-                outer
-            } else {
-                0.0
-            };
-        }
-        pair
-    }
-
-    fn of_degrees(high: usize, low: usize) -> Self {
-        let rule = |degree: usize| {
-            let barycentric = |[s, t]: [f64; 2]| [1.0 - s - t, s, t];
-            let rule = triangle(degree, [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
-            // Degrees up to 20 are in the table.
-            let points = rule.into_iter().flat_map(|rule| rule.nodes.into_iter().zip(rule.weights));
-            points.map(|(node, weight)| (barycentric(node), 2.0 * weight)).collect::<Vec<_>>()
-        };
-        let mut nodes: Vec<_> = rule(high).into_iter().map(|(x, w)| (x, w, 0.0)).collect();
-        nodes.extend(rule(low).into_iter().map(|(x, w)| (x, 0.0, w)));
-        Self { nodes }
-    }
-}
 
 /// The hidden part of an exchange.
 pub(super) struct Partly<'a> {
@@ -83,6 +31,8 @@ struct Part {
     cell: Cell,
     value: f64,
     error: f64,
+    /// Whether a rule of higher degree may be better than two halves: no kink was seen, nor was the rule used.
+    is_smooth: bool,
 }
 
 impl PartialEq for Part {
@@ -108,6 +58,9 @@ const MOST: usize = 20_000;
 /// With more pieces than that it is left to their errors which are cut further.
 const MANY: usize = 20;
 
+/// The error that is told of a higher rule is no less than this part of the lower one's: two rules may agree by chance.
+const LEAST_GAIN: f64 = 0.05;
+
 /// A cell is cut in any case by a kink that is no nearer to a corner than this part of it. A kink nearer than that may hide
 /// from all nodes: what grows from it on grows at most as fast as from nothing to the whole over the cell.
 const EVEN: f64 = 0.03;
@@ -129,10 +82,15 @@ impl Partly<'_> {
         while error > tolerance && parts.len() < MOST {
             let Some(worst) = parts.pop() else { break };
             error -= worst.error;
-            for cell in divided(&worst.cell, &kinks) {
-                let part = self.part(cell, &kinks, &shadows, room);
+            let mut add = |part: Part| {
                 error += part.error;
                 parts.push(part);
+            };
+            match self.raised(&worst, room) {
+                Some(part) => add(part),
+                None => divided(&worst.cell, &kinks)
+                    .into_iter()
+                    .for_each(|cell| add(self.part(cell, &kinks, &shadows, room))),
             }
         }
         let (value, error) = parts.iter().fold((0.0, 0.0), |(v, e), part| (v + part.value, e + part.error));
@@ -156,26 +114,56 @@ impl Partly<'_> {
             }
         }
         pieces.retain(|piece| {
-            let scene = Scene { eyes: piece.corners(), target: &self.target, reach: self.reach };
+            let scene = Scene::new(piece.corners(), &self.target, self.reach);
             !self.hiders.iter().all(|hider| hider.misses(&scene))
         });
         pieces
     }
 
     fn part(&self, cell: Cell, kinks: &[Kink], shadows: &Shadows<'_>, room: &mut Room) -> Part {
-        let [a, b, c] = cell;
+        let side_by_side = self.side_by_side(&self.rules.eights, &cell, room);
+        let cut = kinks.iter().map(|kink| kink.cuts(&cell)).fold(0.0, f64::max);
+        let is_smooth = side_by_side.is_some() && cut == 0.0;
+        let [high, low] = side_by_side.unwrap_or_else(|| self.one_by_one(&cell, shadows, room));
+        let error = (high - low).abs().max(self.whole * cut.min(EVEN).powi(2));
+        let area = area(&cell);
+        Part { cell, value: area * high, error: area * error, is_smooth }
+    }
+
+    /// A smooth part by the rule of higher degree, from which the other differed by its true error.
+    fn raised(&self, part: &Part, room: &mut Room) -> Option<Part> {
+        let smooth = Some(part).filter(|part| part.is_smooth)?;
+        let [mean, _] = self.side_by_side(&self.rules.higher, &smooth.cell, room)?;
+        let value = area(&smooth.cell) * mean;
+        Some(Part {
+            cell: smooth.cell,
+            value,
+            error: (value - smooth.value).abs().max(LEAST_GAIN * smooth.error),
+            is_smooth: false,
+        })
+    }
+
+    /// The means over a cell by a rule and by its lower one, from eight nodes at a time.
+    fn side_by_side(&self, eights: &[Eight], cell: &Cell, room: &mut Room) -> Option<[f64; 2]> {
+        let [hider] = self.hiders else { return None };
+        let (mut high, mut low) = (0.0, 0.0);
+        for eight in eights {
+            let x = eight.points(cell);
+            let hidden = bundle::hidden(&self.target, hider, &x, self.normal, &mut room.bundles)?;
+            high += (eight.weight * hidden).reduce_add();
+            low += (eight.lower * hidden).reduce_add();
+        }
+        Some([high, low])
+    }
+
+    fn one_by_one(&self, [a, b, c]: &Cell, shadows: &Shadows<'_>, room: &mut Room) -> [f64; 2] {
         let (mut high, mut low) = (0.0, 0.0);
         for ([u, v, w], weight, lower) in &self.rules.nodes {
-            let x = a * *u + b * *v + c * *w;
-            let hidden = shadows.hidden(x, room);
+            let hidden = shadows.hidden(*a * *u + *b * *v + *c * *w, room);
             high += weight * hidden;
             low += lower * hidden;
         }
-        let area = area(&cell);
-        let mut error = (high - low).abs();
-        let cut = kinks.iter().map(|kink| kink.cuts(&cell)).fold(0.0, f64::max);
-        error = error.max(self.whole * cut.min(EVEN).powi(2));
-        Part { cell, value: area * high, error: area * error }
+        [high, low]
     }
 }
 

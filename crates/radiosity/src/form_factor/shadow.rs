@@ -1,8 +1,9 @@
 //! The part of a polygon that others hide from a point x, and its form factor: clipped by the planes through x and the
 //! edges of what hides it, and given to Lambert's formula.
 //!
-//! What hides lies between the planes of the two polygons of a pair; then what is in the pyramid from x over it is hidden.
+//! What hides is in front of the polygon's plane, as x is; then all of the polygon in the pyramid from x over it is hidden.
 
+use super::bundle::Bundles;
 use super::hider::Hider;
 use super::outline::{Inside, Outline};
 use glam::DVec3;
@@ -22,12 +23,13 @@ pub(super) struct Shadows<'a> {
 pub(super) struct Room {
     pieces: Vec<Outline>,
     parts: [Outline; 2],
+    pub bundles: Bundles,
 }
 
 impl Shadows<'_> {
     /// The form factor from x to what is hidden of the polygon, which is seen from its front.
     pub fn hidden(&self, x: DVec3, room: &mut Room) -> f64 {
-        let Room { pieces, parts } = room;
+        let Room { pieces, parts, .. } = room;
         let target = self.target.seen_from(x);
         let (group, others) = first_group(self.hiders);
         if others.is_empty() {

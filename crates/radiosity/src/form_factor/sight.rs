@@ -10,6 +10,7 @@ use crate::polygon::Polygon;
 use crate::visibility::blockers::Blockers;
 use crate::visibility::solid::{Plane, Solid};
 use glam::DVec3;
+use std::borrow::Cow;
 
 /// What is seen of a target.
 pub(super) enum Sight {
@@ -28,7 +29,7 @@ pub(super) struct View {
 }
 
 /// A body with more planes that cut the outer polygon is looked at side by side.
-const MOST_CUTS: usize = 3;
+const MOST_CUTS: usize = 4;
 
 /// Heights below this part of all lengths are rounding.
 const ROUNDING: f64 = 1e-12;
@@ -49,14 +50,17 @@ impl Look<'_> {
         let (a, b) = (self.outer, self.target);
         let reach = a.centroid().distance(b.centroid()) + a.diameter() + b.diameter();
         let (mut views, mut hidden) = (Vec::new(), true);
-        for part in a.in_front_of(b) {
+        // Mostly the whole is in front, and need not be copied.
+        let whole = a.vertices().iter().all(|v| b.height_of(*v) >= 0.0);
+        let parts = if whole { Cow::Borrowed(std::slice::from_ref(a)) } else { Cow::Owned(a.in_front_of(b)) };
+        for part in parts.iter() {
             let mut target = Outline::new(b.vertices());
             target.keep_above(|v| part.height_of(v));
             if target.is_empty() {
                 continue;
             }
             self.parts(Piece::new(part.vertices()), reach, |eyes| {
-                let hiders = self.hiders(&Scene { eyes: eyes.corners(), target: &target, reach });
+                let hiders = self.hiders(&Scene::new(eyes.corners(), &target, reach));
                 hidden &= matches!(hiders.as_slice(), [hider] if hider.hides_all());
                 if !hiders.is_empty() {
                     views.push(View { eyes, target, hiders, reach });
@@ -81,6 +85,9 @@ impl Look<'_> {
                 cuts.extend(own);
             }
         }
+        if cuts.is_empty() {
+            return visit(piece);
+        }
         let mut parts = vec![piece];
         for plane in cuts {
             for k in 0..parts.len() {
@@ -102,11 +109,19 @@ impl Look<'_> {
         (self.blockers.is_outside(self.face, self.outer, body) && in_front()).then_some(solid)
     }
 
+    /// Whether the outer polygon is a side of the convex body that another stands for: it hides nothing from there.
+    fn is_own(&self, id: u32) -> bool {
+        let body = self.blockers.body[id as usize];
+        body.is_some_and(|body| {
+            self.blockers.is_convex[body as usize] && self.blockers.body_of_face[self.face] == Some(body)
+        })
+    }
+
     /// What hides something of the target; one that hides all is alone.
     fn hiders(&self, scene: &Scene<'_>) -> Vec<Hider> {
         let mut hiders = Vec::new();
         let mut polygons = Vec::new();
-        for &id in self.found {
+        for &id in self.found.iter().filter(|&&id| !self.is_own(id)) {
             let hiding = match self.solid(id, scene.reach) {
                 Some(solid) => Hider::of_solid(solid, scene),
                 None => Err(TooMuch),
@@ -134,6 +149,11 @@ impl Look<'_> {
         let polygon = &self.blockers.polygons[id as usize];
         let body = self.blockers.body[id as usize];
         let one_sided = body.is_some_and(|body| self.blockers.is_outside(self.face, self.outer, body));
+        let behind =
+            |end: &Polygon| polygon.vertices().iter().all(|v| end.height_of(*v) <= ROUNDING * scene.reach);
+        if behind(self.outer) || behind(self.target) {
+            return None;
+        }
         let plane = Plane { normal: polygon.normal(), offset: polygon.normal().dot(polygon.vertices()[0]) };
         let in_front = is_before(scene.eyes, &plane, scene.reach);
         if one_sided && in_front == Some(false) {

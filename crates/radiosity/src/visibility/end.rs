@@ -28,32 +28,31 @@ impl End {
         Self { low, high, centre: centre.as_vec3(), radius, facet }
     }
 
-    /// Whether a box of the node reaches into the box around both, and the ball about it into the capsule around both.
+    /// A bit for each box of the node that reaches into the box around both, and that the segment between their centres meets
+    /// once it is wider by the larger of their radii.
     ///
-    /// The second is not implied by the first where the two are far apart on a slant. All factors of a box in a box of 5 568
-    /// triangles take a fifth less time with these tests before a shaft is made.
-    #[inline]
-    pub(super) fn may_meet(&self, other: &Self, node: &Node) -> bool {
+    /// The second is not implied by the first where the two are far apart on a slant.
+    #[inline(always)]
+    pub(super) fn met(&self, other: &Self, node: &Node) -> u32 {
         let (low, high) = (self.low.min(other.low), self.high.max(other.high));
         let along = other.centre - self.centre;
+        let reach = self.radius.max(other.radius) + MARGIN;
         let mut meets = f32x8::ZERO.simd_eq(f32x8::ZERO);
-        let (mut from, mut size) = ([f32x8::ZERO; 3], f32x8::ZERO);
+        let (mut enters, mut leaves) = (f32x8::ZERO, f32x8::ONE);
         for k in 0..3 {
             let (least, most) = (node.bounds[k], node.bounds[k + 3]);
             meets &= least.simd_le(f32x8::splat(high[k])) & most.simd_ge(f32x8::splat(low[k]));
-            from[k] = (least + most) * 0.5 - self.centre[k];
-            let half = (most - least) * 0.5;
-            size += half * half;
+            // Along an axis on which the segment does not advance, its start decides: all times are ∓ many.
+            let speed = if along[k].abs() < SLOWEST { SLOWEST } else { along[k] };
+            let (first, last) = (self.centre[k] + reach, self.centre[k] - reach);
+            let times = [(least - first) / speed, (most - last) / speed];
+            enters = enters.fast_max(times[0].fast_min(times[1]));
+            leaves = leaves.fast_min(times[0].fast_max(times[1]));
         }
-        let foot = (from[0] * along.x + from[1] * along.y + from[2] * along.z)
-            / along.length_squared().max(f32::MIN_POSITIVE);
-        let foot = foot.fast_max(f32x8::ZERO).fast_min(f32x8::ONE);
-        let apart = (0..3).fold(f32x8::ZERO, |sum, k| {
-            let across = from[k] - foot * along[k];
-            sum + across * across
-        });
-        let reach = size.sqrt() + (self.radius.max(other.radius) + MARGIN);
         // An unused child has an empty box, of which nothing is true.
-        (meets & apart.simd_le(reach * reach)).any()
+        (meets & enters.simd_le(leaves)).to_bitmask()
     }
 }
+
+/// A difference of coordinates that is none: 1 over it is far from infinite.
+const SLOWEST: f32 = 1e-20;

@@ -20,7 +20,7 @@ mod shaft;
 pub(crate) mod solid;
 mod walls;
 
-pub use count::RayCount;
+pub use count::{Count, RayCount};
 
 use crate::polygon::Polygon;
 use bvh::Bvh;

@@ -1,13 +1,14 @@
 //! What may be between two polygons: single polygons, and convex bodies each as a whole.
 
-use super::bvh::{Bvh, Query};
+use super::bvh::{Bvh, LEAF, Node, Query};
 use super::end::End;
 use super::facet::{Facet, Frame};
 use super::packet::Packet;
-use super::shaft::Shaft;
+use super::shaft::{ROUNDING, Shaft};
 use super::walls::walls;
 use crate::polygon::Polygon;
 use glam::DVec3;
+use std::cell::OnceCell;
 use std::ops::ControlFlow;
 
 /// Polygons, some of which are sides of convex bodies.
@@ -47,35 +48,53 @@ impl Screens {
         End::new(Facet::new(polygon, &self.frame))
     }
 
-    /// What is not proved to miss all segments from a to b, into `found`.
-    pub fn between(&self, a: &End, b: &End, found: &mut Vec<u32>) {
+    /// What may be in the way of some segment from one to the other, into `found`: polygons that are not proved to miss all
+    /// of them, and bodies that are near.
+    pub fn between(&self, ends: [&End; 2], found: &mut Vec<u32>) {
         found.clear();
-        if self.tree.nodes.first().is_some_and(|root| a.may_meet(b, root)) {
-            let shaft = Shaft::new(&self.facets, &a.facet, &b.facet);
-            self.tree.walk(&mut Between { shaft, bodies: &self.bodies, found });
-        }
+        self.tree.walk(&mut Between { screens: self, ends, shaft: OnceCell::new(), found });
+    }
+
+    /// Takes from what was found the bodies that are proved to miss all segments; whether there were any.
+    pub fn narrow(&self, [a, b]: [&End; 2], found: &mut Vec<u32>) -> bool {
+        let before = found.len();
+        let shaft = Shaft::new(&self.facets, &a.facet, &b.facet);
+        found.retain(|&k| {
+            let vertices = &self.bodies[k as usize];
+            vertices.is_empty() || !shaft.excludes(vertices)
+        });
+        found.len() < before
     }
 }
 
 struct Between<'a> {
-    shaft: Shaft<'a>,
-    bodies: &'a [Vec<DVec3>],
+    screens: &'a Screens,
+    ends: [&'a End; 2],
+    /// Made once it is needed: the balls and boxes of the ends tell most pairs in full sight.
+    shaft: OnceCell<Shaft<'a>>,
     found: &'a mut Vec<u32>,
 }
 
 impl Between<'_> {
+    fn shaft(&self) -> &Shaft<'_> {
+        let [a, b] = self.ends;
+        self.shaft.get_or_init(|| Shaft::new(&self.screens.facets, &a.facet, &b.facet))
+    }
+
+    /// Whether a polygon is proved to miss all segments, or a body is behind one of the ends.
     fn misses(&self, k: u32) -> bool {
-        match self.bodies[k as usize].as_slice() {
-            [] => self.shaft.misses(k),
-            vertices => self.shaft.excludes(vertices),
-        }
+        let vertices = &self.screens.bodies[k as usize];
+        let behind = |end: &&End| vertices.iter().all(|&v| end.facet.height_of(v) <= ROUNDING);
+        if vertices.is_empty() { self.shaft().misses(k) } else { self.ends.iter().any(behind) }
     }
 }
 
 impl Query for Between<'_> {
     #[inline(always)]
-    fn select(&self, node: &super::bvh::Node) -> u32 {
-        self.shaft.reached(node)
+    fn select(&self, node: &Node) -> u32 {
+        let met = self.ends[0].met(self.ends[1], node);
+        let is_inner = |k: usize| met >> k & 1 == 1 && node.children[k] & LEAF == 0;
+        if (0..8).any(is_inner) { met & self.shaft().reached(node) } else { met }
     }
 
     fn visit(&mut self, packet: &Packet) -> ControlFlow<()> {

@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 use wide::{f32x8, f64x4};
 
 /// How far a gap, or a breach of a touched plane, is from rounding, in the scene's unit.
-const ROUNDING: f64 = 1e-12;
+pub(super) const ROUNDING: f64 = 1e-12;
 
 /// The square of 1e-12: edges and distances are 1e-4 and more of the scene in anything that is lit.
 const SMALLEST_NORMAL: f64 = 1e-24;
