@@ -24,6 +24,9 @@ pub struct Domain<'a, V> {
 /// How far beside the centre of a cell, on the way to a corner.
 const BESIDE: f64 = 0.9;
 
+/// Points across a cell in which it is asked whether something stands there.
+const LOOKS: usize = 8;
+
 /// Lamps are looked at from every point.
 const MOST_LAMPS: usize = 64;
 
@@ -82,6 +85,22 @@ impl<'a, V: Value> Domain<'a, V> {
         let beside = cell.polygon.vertices().iter().map(|v| centre.lerp(*v, BESIDE));
         let mut points = std::iter::once(centre).chain(beside);
         points.find(|x| !outlook.is_buried(*x)).unwrap_or(centre)
+    }
+
+    /// Whether a point of a face is under something that stands on it, where no light comes.
+    pub(super) fn is_buried(&self, face: u32, point: DVec3) -> bool {
+        self.outlook(face).is_buried(point)
+    }
+
+    /// The part of a cell that is not under something.
+    pub(super) fn share_in_sight(&self, cell: &Node) -> f64 {
+        let outlook = self.outlook(cell.face);
+        if !outlook.is_stood_on() {
+            return 1.0;
+        }
+        let place = |k: usize| (k as f64 + 0.5) / LOOKS as f64;
+        let points = (0..LOOKS * LOOKS).map(|k| cell.polygon.point(place(k % LOOKS), place(k / LOOKS)));
+        points.filter(|x| !outlook.is_buried(*x)).count() as f64 / (LOOKS * LOOKS) as f64
     }
 
     /// The parts of the tree that a point of a face sees, and their form factors.

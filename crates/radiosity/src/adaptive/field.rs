@@ -78,27 +78,22 @@ impl<V: Value> Field<'_, V> {
     pub fn parts(&self) -> Vec<Part<V>> {
         let mut patches: Vec<u32> = self.tree.patches().collect();
         patches.sort_by_key(|&patch| self.tree.node(patch).face);
-        let part = |patch: u32| {
+        let mut view = View::default();
+        let mut part = |patch: u32| {
             let node = self.tree.node(patch);
-            let (rho, radiosity) = (self.domain.reflectance(node.face), self.radiosity[patch as usize]);
-            // H = (û − E)/ρ, cell by cell where ρ is not 0.
-            let divided = radiosity.zip(rho, |b, rho| if rho > 0.0 { b / rho } else { 0.0 });
-            let black = rho.channels().contains(&0.0);
-            let irradiance = if black { self.mean_irradiance(patch) } else { divided };
-            let radiosity = self.domain.emission(node.face) + radiosity;
+            let mut irradiance = V::splat(0.0);
+            for cell in node.parts.clone() {
+                let whole = self.tree.node(cell);
+                let point = self.domain.node_of(whole);
+                let share = self.domain.share_in_sight(whole) * whole.area / node.area;
+                let direct = self.domain.direct(node.face, point, &mut view);
+                irradiance += (direct + self.smooth[cell as usize]) * share;
+            }
+            let [rho, emission] = [self.domain.reflectance(node.face), self.domain.emission(node.face)];
+            let radiosity = emission + rho * irradiance;
             Part { polygon: node.polygon.clone(), face: node.face, radiosity, irradiance }
         };
-        patches.into_iter().map(part).collect()
-    }
-
-    fn mean_irradiance(&self, patch: u32) -> V {
-        let node = self.tree.node(patch);
-        let mut view = View::default();
-        node.parts.clone().fold(V::splat(0.0), |sum, cell| {
-            let cell = self.tree.node(cell);
-            let share = cell.area / node.area;
-            sum + self.irradiance_with(cell.face, cell.polygon.centroid(), &mut view) * share
-        })
+        patches.into_iter().map(&mut part).collect()
     }
 
     /// The root of the mean square of the reflected radiosity, in W/m².
@@ -113,6 +108,9 @@ impl<V: Value> Field<'_, V> {
     }
 
     pub(super) fn irradiance_with(&self, face: u32, point: DVec3, view: &mut View) -> V {
+        if self.domain.is_buried(face, point) {
+            return V::splat(0.0);
+        }
         let patch = self.tree.patch_at(face, point);
         if self.rough[patch as usize] {
             return self.gathered(face, point, view);

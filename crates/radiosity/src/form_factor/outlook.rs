@@ -35,6 +35,8 @@ pub(crate) struct Outlook {
     /// The faces not all hidden, in their order, with what may hide some of them, in `hiders`.
     pub seen: Vec<(u32, Vec<u32>)>,
     hiders: Vec<Hider>,
+    /// The bodies among them that stand on the face.
+    standing: Vec<u32>,
     touch: f64,
 }
 
@@ -67,12 +69,17 @@ impl<'a> Outlooks<'a> {
     /// What is seen from a face.
     pub fn from(&self, face: usize) -> Outlook {
         let outer = &self.faces[face];
-        let mut outlook =
-            Outlook { normal: outer.normal(), seen: Vec::new(), hiders: Vec::new(), touch: self.touch };
+        let mut outlook = Outlook {
+            normal: outer.normal(),
+            seen: Vec::new(),
+            hiders: Vec::new(),
+            standing: Vec::new(),
+            touch: self.touch,
+        };
         let (mut known, mut found) = (HashMap::new(), Vec::new());
         for (other, target) in self.faces.iter().enumerate() {
             if other != face && may_see(outer, target) {
-                self.screens.between(&self.ends[face], &self.ends[other], &mut found);
+                self.screens.between([&self.ends[face], &self.ends[other]], &mut found);
                 let hiders = found.iter().flat_map(|&id| self.names(id, other));
                 let mut hiders: Vec<u32> = hiders
                     .map(|key| {
@@ -86,6 +93,12 @@ impl<'a> Outlooks<'a> {
                 outlook.seen.push((other as u32, hiders));
             }
         }
+        let stands = |hider: &Hider| match hider {
+            Hider::Body(solid) => solid.vertices.iter().any(|v| outer.height_of(*v) <= self.touch),
+            Hider::Side { .. } => false,
+        };
+        let all = outlook.hiders.iter().zip(0..);
+        outlook.standing = all.filter(|(hider, _)| stands(hider)).map(|(_, k)| k).collect();
         outlook
     }
 
@@ -119,7 +132,7 @@ impl<'a> Outlooks<'a> {
             outline.keep_above(|v| self.faces[target].height_of(v));
         }
         let plane = Plane { normal: polygon.normal(), offset: polygon.normal().dot(polygon.vertices()[0]) };
-        let one_sided = body.is_some_and(|body| self.blockers.is_outside(face, outer, body));
+        let one_sided = body.is_some_and(|body| self.blockers.is_clear_of(face, outer, body));
         Hider::Side { outline, plane, one_sided }
     }
 }
@@ -128,10 +141,17 @@ impl<'a> Outlooks<'a> {
 const TOUCH: f64 = 1e-9;
 
 impl Outlook {
+    /// Whether bodies stand on the face.
+    pub fn is_stood_on(&self) -> bool {
+        !self.standing.is_empty()
+    }
+
     /// Whether a point is under a body that stands on the face, and sees nothing but its inside.
     pub fn is_buried(&self, x: DVec3) -> bool {
-        let under = |hider: &Hider| matches!(hider, Hider::Body(solid) if solid.in_front(x, self.touch) == 0);
-        self.hiders.iter().any(under)
+        self.standing.iter().any(|&k| match &self.hiders[k as usize] {
+            Hider::Body(solid) => solid.in_front(x, self.touch) == 0,
+            Hider::Side { .. } => false,
+        })
     }
 }
 

@@ -148,7 +148,7 @@ impl Look<'_> {
     fn screen(&self, id: u32, scene: &Scene<'_>) -> Option<Screen> {
         let polygon = &self.blockers.polygons[id as usize];
         let body = self.blockers.body[id as usize];
-        let one_sided = body.is_some_and(|body| self.blockers.is_outside(self.face, self.outer, body));
+        let one_sided = body.is_some_and(|body| self.blockers.is_clear_of(self.face, self.outer, body));
         let behind =
             |end: &Polygon| polygon.vertices().iter().all(|v| end.height_of(*v) <= ROUNDING * scene.reach);
         if behind(self.outer) || behind(self.target) {

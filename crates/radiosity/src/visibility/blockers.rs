@@ -74,16 +74,34 @@ impl Blockers {
         blockers
     }
 
-    /// Whether no point of a face, by its number, sees from within a body: their boxes, or a side of the body, tell them apart.
-    ///
-    /// A face on which the body stands has points under it, which see nothing but its inside.
+    /// Whether no point of a face, by its number, is in a body: their boxes, or a side of the body, tell them apart. The face
+    /// may have points under a body that stands on it.
     pub fn is_outside(&self, face: usize, polygon: &Polygon, body: u32) -> bool {
+        self.tells_apart(face, polygon, body, |_, _| true)
+    }
+
+    /// Whether, besides, it has no points under the body, which see nothing but its inside.
+    pub fn is_clear_of(&self, face: usize, polygon: &Polygon, body: u32) -> bool {
         let [least, most] = self.bodies[body as usize];
         let touch = ON_PLANE * (most - least).max_element();
+        self.tells_apart(face, polygon, body, |side, highest| {
+            highest > touch || polygon.normal().dot(side.normal) > 0.0
+        })
+    }
+
+    /// Whether a face is of a body, or before a plane that the body is behind, for which `and` of its greatest height holds.
+    fn tells_apart(
+        &self,
+        face: usize,
+        polygon: &Polygon,
+        body: u32,
+        and: impl Fn(&Plane, f64) -> bool,
+    ) -> bool {
+        let [least, most] = self.bodies[body as usize];
         let apart = |side: &Plane| {
             let heights = polygon.vertices().iter().map(|v| side.height_of(*v));
             let (low, high) = heights.fold((f64::MAX, f64::MIN), |(low, high), h| (low.min(h), high.max(h)));
-            low >= 0.0 && (high > touch || polygon.normal().dot(side.normal) > 0.0)
+            low >= 0.0 && and(side, high)
         };
         let sides = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| {
             let plane = |normal: DVec3, corner: DVec3| Plane { normal, offset: normal.dot(corner) };
