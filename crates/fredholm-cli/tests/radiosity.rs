@@ -184,3 +184,51 @@ fn an_interrupt_leaves_nothing() {
     assert_eq!(child.wait().unwrap().code(), Some(130));
     assert!(names(&folder).is_empty());
 }
+
+#[test]
+fn an_accuracy_is_a_whole_request() {
+    let folder = folder("accuracy");
+    let words = "--size 32x32 --samples 1";
+    let output = fredholm(&folder, &format!("radiosity --accuracy 4% {words}"));
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let table = text(&output.stdout);
+    for line in ["to an accuracy of 4 %", "of the mesh", "form factors", "iteration", "cells"] {
+        assert!(table.contains(line), "no `{line}` in: {table}");
+    }
+    let output = fredholm(
+        &folder,
+        &format!("radiosity {} --accuracy 0.02 --json - --patches p.csv {words}", furnace()),
+    );
+    let report = json(&output.stdout);
+    let number = |key: &str| report[key].as_f64().unwrap();
+    let parts = ["discretisation_error", "form_factor_error", "iteration_error"].map(number);
+    assert!((parts.iter().sum::<f64>() - number("error")).abs() < 1e-12);
+    assert!(report["outcome"] == "met" && number("error") <= 0.02 && number("accuracy") == 0.02);
+    for surface in report["surfaces"].as_array().unwrap() {
+        for (channel, expected) in [2.0, 4.0 / 3.0, 4.0].into_iter().enumerate() {
+            let mean = surface["mean_radiosity"][channel].as_f64().unwrap();
+            assert!((mean / expected - 1.0).abs() < number("error"), "{surface}");
+        }
+    }
+    let rows = fs::read_to_string(folder.join("p.csv")).unwrap().lines().count();
+    assert_eq!(rows, 1 + number("cells") as usize / 4);
+}
+
+#[test]
+fn a_scene_file_asks_for_an_accuracy_and_the_command_line_comes_first() {
+    let folder = folder("accuracy_in_a_file");
+    let scene = fs::read_to_string(furnace()).unwrap();
+    let mesh = Path::new(&furnace()).with_file_name("furnace.obj");
+    let scene = scene.replace("furnace.obj", mesh.to_str().unwrap());
+    let (before, _) = scene.split_once("[solve]").unwrap_or((&scene, ""));
+    fs::write(folder.join("scene.toml"), format!("{before}\n[solve]\naccuracy = \"3%\"\n")).unwrap();
+    let run =
+        |words: &str| json(&fredholm(&folder, &format!("radiosity scene.toml --json - {words}")).stdout);
+    assert_eq!(run("")["accuracy"].as_f64(), Some(0.03));
+    assert_eq!(run("--accuracy 5%")["accuracy"].as_f64(), Some(0.05));
+    assert_eq!(run("--patch-count 100")["method"].as_str(), Some("galerkin"));
+    fs::write(folder.join("scene.toml"), format!("{before}\n[solve]\naccuracy = \"300%\"\n")).unwrap();
+    let output = fredholm(&folder, "radiosity scene.toml");
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stderr).contains("give a percentage such as"), "{}", text(&output.stderr));
+}

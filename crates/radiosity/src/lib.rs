@@ -33,6 +33,7 @@
 //! | 5 | [`form_factor`] | F_ij: Nyström, collocation, Galerkin |
 //! | | [`elements`] | the same on P_k and Q_k: coefficients for each patch |
 //! | 6 | [`solve`](mod@solve) | u = f + ρ ⊙ (F u), by the crate `fredholm`; [`closure`] checks it |
+//! | 2–7 | [`adaptive`] | all of it to an accuracy that is asked for |
 //! | | [`view_factors`] | the F_ij of faces for other programs, each with its error |
 //! | 7 | [`reconstruct`] | from patches to the light at any point |
 //! | 8 | [`render`], [`export`] | pictures and files |

@@ -75,6 +75,12 @@ fn walk(file: &Path, given: &ThermalScene, args: &Radiosity, start: Instant) -> 
             file.display()
         );
     }
+    if solve.accuracy.is_some() {
+        bail!(
+            "{}: [solve] accuracy is of light; write factor_accuracy for that of form factors, or leave it out",
+            file.display()
+        );
+    }
     let mut seconds = Seconds { load: start.elapsed().as_secs_f64(), ..Seconds::default() };
     let settings = Settings::new(args, &without_method(solve), file)?;
     let Outputs { picture, patches: table, json, .. } = Outputs::prepare(args, &scene.name)?;
