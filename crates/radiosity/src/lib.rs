@@ -31,6 +31,7 @@
 //! | 3 | [`visibility`] | V(x, y): may two points see each other? |
 //! | 4 | [`kernel`] | K(x, y) = cosθ cosθ′ V / (π r²) |
 //! | 5 | [`form_factor`] | F_ij: Nyström, collocation, Galerkin |
+//! | | [`lights`] | what point lights send to surfaces: f = E + ρ H |
 //! | | [`elements`] | the same on P_k and Q_k: coefficients for each patch |
 //! | 6 | [`solve`](mod@solve) | u = f + ρ ⊙ (F u), by the crate `fredholm`; [`closure`] checks it |
 //! | | [`view_factors`] | the F_ij of faces for other programs, each with its error |
@@ -48,6 +49,7 @@ pub mod elements;
 pub mod export;
 pub mod form_factor;
 pub mod kernel;
+pub mod lights;
 pub mod patches;
 pub mod polygon;
 pub mod reconstruct;

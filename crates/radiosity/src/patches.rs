@@ -1,7 +1,7 @@
 //! Room 2: the mesh of the domain. Each input polygon is cut into patches P_i on which u is constant (P0).
 
 use crate::polygon::Polygon;
-use crate::scene::Scene;
+use crate::scene::{PointLight, Scene};
 use fredholm::value::Value;
 use glam::{DVec2, DVec3};
 use std::ops::Range;
@@ -19,6 +19,8 @@ pub struct Patches<V> {
     pub emission: Vec<V>,
     /// The index of each patch's surface in the scene.
     pub surface: Vec<u32>,
+    /// The point lights that shine on them.
+    pub lights: Vec<PointLight<V>>,
     /// Strips of neighbouring patches, in the order of the patches, every patch in one.
     pub strips: Vec<Strip>,
     grids: Vec<Grid>,
@@ -68,6 +70,7 @@ impl<V: Value> Patches<V> {
             reflectance: Vec::new(),
             emission: Vec::new(),
             surface: Vec::new(),
+            lights: scene.lights.clone(),
             strips: Vec::new(),
             grids: Vec::new(),
         };
@@ -321,7 +324,7 @@ mod tests {
 
     fn scene(polygons: Vec<Polygon>) -> Scene<f64> {
         let surface = Surface { name: "s".into(), reflectance: 0.5, emission: 1.0, polygons };
-        Scene { name: "test".into(), surfaces: vec![surface], camera: None }
+        Scene { name: "test".into(), surfaces: vec![surface], lights: Vec::new(), camera: None }
     }
 
     fn odd_shapes() -> Vec<Polygon> {
