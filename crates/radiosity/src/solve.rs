@@ -277,7 +277,7 @@ impl<V: Value> Run<'_, V> {
         let every = self.options.method == Method::Nystrom || self.space.is_some();
         let checked = spread(n, if every { n } else { SAMPLED_ROWS });
         let computed = ((report.residuals.len() + checked.len()) * n) as u64;
-        let solution = self.judge(system, southwell.gathered().to_vec(), report, &checked);
+        let solution = self.judge(system, southwell.gathered(), report, &checked);
         Ok(Solution { form_factors: computed, solve_seconds: start.elapsed().as_secs_f64(), ..solution })
     }
 
@@ -306,7 +306,7 @@ impl<V: Value> Run<'_, V> {
         let report = self.relax(&mut *relaxation, observer)?;
         let mut irradiance = vec![V::splat(0.0); n];
         matrix.apply(&relaxation.solution(), &mut irradiance);
-        let solution = self.judge(system, irradiance, report, &spread(n, n));
+        let solution = self.judge(system, &irradiance, report, &spread(n, n));
         let half = if coupling.reciprocity().is_some() { n * (n + 1) / 2 } else { n * n };
         Ok(Solution {
             form_factors: half as u64,
@@ -357,11 +357,11 @@ impl<V: Value> Run<'_, V> {
     fn judge<F: Rows>(
         &self,
         system: System<'_, V, F>,
-        received: Vec<V>,
+        received: &[V],
         report: Report,
         checked: &[usize],
     ) -> Solution<V> {
-        let radiosity = source(system.source, system.coefficient, &received);
+        let radiosity = source(system.source, system.coefficient, received);
         let irradiance = received.iter().zip(self.lit).map(|(h, lit)| *h + *lit).collect();
         let sums = row_sums(system.operator, checked);
         let norm = if sums.len() == system.dim() {

@@ -64,7 +64,7 @@ impl<V: Value> Gather<'_, V> {
     fn radiosity_at(&self, site: &Site, patch: usize) -> V {
         let gathered = self.mean_of_rays(site, NEAR_RAYS, |gather, _, patch, _| gather.radiosity[patch]);
         let reflectance = self.patches.reflectance[patch];
-        let irradiance = gathered.irradiance + self.from_points(site);
+        let irradiance = gathered.irradiance + self.of_points(site);
         match &self.lamps {
             Some(lamps) => reflectance * (irradiance + lamps.roughly(site, NEAR_RAYS)),
             None => self.patches.emission[patch] + reflectance * irradiance,
@@ -75,10 +75,10 @@ impl<V: Value> Gather<'_, V> {
     /// own.
     pub fn direct(&self, site: &Site) -> V {
         let lamps = self.lamps.as_ref().map_or(V::splat(0.0), |lamps| lamps.irradiance(site));
-        lamps + self.from_points(site)
+        lamps + self.of_points(site)
     }
 
-    fn from_points(&self, site: &Site) -> V {
+    fn of_points(&self, site: &Site) -> V {
         let at = SurfacePoint { position: site.point, normal: site.normal };
         lights::irradiance(&self.patches.lights, self.visibility, &at)
     }
