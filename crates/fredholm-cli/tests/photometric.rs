@@ -67,6 +67,36 @@ fn a_closed_room_of_one_reflectance_as_tc_5_8() {
 }
 
 #[test]
+fn a_point_source_as_tc_5_8() {
+    // The same from a point in the middle: the direct light is no emission of the walls, which is what files must say.
+    let folder = folder("tc_5_8_point");
+    let lit = "[[light]]\nposition = [2, 2, 2]\nflux = 10000\n";
+    write(
+        &folder,
+        &room(),
+        &format!("{lit}[materials.lit]\nreflectance = 0.5\n[materials.wall]\nreflectance = 0.5\n"),
+    );
+    for space in ["p0", "p1"] {
+        let words =
+            format!("radiosity a.toml --photometric --patch-size 1 --space {space} --patches p.csv --json -");
+        let report = json(&fredholm(&folder, &words).stdout);
+        assert_eq!(report["point_lights"], 1);
+        for surface in report["surfaces"].as_array().unwrap() {
+            let number = |key: &str| surface[key].as_f64().unwrap();
+            assert_eq!(surface["emission"][0], 0.0);
+            assert!((number("mean_illuminance") / 208.3333 - 1.0).abs() < 1e-3, "{space}: {surface}");
+            assert!((number("mean_luminance") * PI / 104.1667 - 1.0).abs() < 1e-3, "{space}: {surface}");
+        }
+        let csv = fs::read_to_string(folder.join("p.csv")).unwrap();
+        assert!(csv.lines().skip(1).all(|row| row.split(',').nth(7) == Some("0")), "{csv}");
+    }
+    let table = text(
+        &fredholm(&folder, "radiosity a.toml --photometric --patch-size 2 --size 32x32 -o a.png").stdout,
+    );
+    assert!(table.contains("point lights  1"), "{table}");
+}
+
+#[test]
 fn a_lambertian_source_in_a_ceiling_as_tc_5_3() {
     // L = 1000 cd/m², 1 × 1 m in the middle of a ceiling of 4 × 4 m, 3 m high; black walls. Small patches of the wall
     // y = 0 stand for the standard's points, at x = 2 and the heights z.

@@ -1,7 +1,7 @@
 //! Room 2: the mesh of the domain. Each input polygon is cut into patches P_i on which u is constant (P0).
 
 use crate::polygon::Polygon;
-use crate::scene::{Scene, Surface};
+use crate::scene::{PointLight, Scene, Surface};
 use fredholm::value::Value;
 use glam::{DVec2, DVec3};
 use std::ops::Range;
@@ -19,6 +19,8 @@ pub struct Patches<V> {
     pub emission: Vec<V>,
     /// The index of each patch's surface in the scene.
     pub surface: Vec<u32>,
+    /// The point lights that shine on them.
+    pub lights: Vec<PointLight<V>>,
     /// Strips of neighbouring patches, in the order of the patches, every patch in one.
     pub strips: Vec<Strip>,
     cuts: Vec<Cut>,
@@ -62,7 +64,7 @@ impl<V: Value> Patches<V> {
         if count > MAX_PATCHES as f64 {
             return Err(PatchError::TooMany { size, count });
         }
-        let mut patches = Self::empty();
+        let mut patches = Self::empty(scene);
         patches.polygons.reserve(count as usize);
         for (index, surface) in scene.surfaces.iter().enumerate() {
             for polygon in &surface.polygons {
@@ -76,7 +78,7 @@ impl<V: Value> Patches<V> {
 
     /// The patches that somebody else has cut the polygons of the scene into, polygon by polygon.
     pub fn from_parts(scene: &Scene<V>, parts: impl IntoIterator<Item = Vec<Polygon>>) -> Self {
-        let mut patches = Self::empty();
+        let mut patches = Self::empty(scene);
         let mut parts = parts.into_iter();
         for (index, surface) in scene.surfaces.iter().enumerate() {
             for (polygon, parts) in surface.polygons.iter().zip(&mut parts) {
@@ -95,13 +97,14 @@ impl<V: Value> Patches<V> {
         patches
     }
 
-    fn empty() -> Self {
+    fn empty(scene: &Scene<V>) -> Self {
         Self {
             polygons: Vec::new(),
             areas: Vec::new(),
             reflectance: Vec::new(),
             emission: Vec::new(),
             surface: Vec::new(),
+            lights: scene.lights.clone(),
             strips: Vec::new(),
             cuts: Vec::new(),
         }
@@ -369,7 +372,7 @@ mod tests {
 
     fn scene(polygons: Vec<Polygon>) -> Scene<f64> {
         let surface = Surface { name: "s".into(), reflectance: 0.5, emission: 1.0, polygons };
-        Scene { name: "test".into(), surfaces: vec![surface], camera: None }
+        Scene { name: "test".into(), surfaces: vec![surface], lights: Vec::new(), camera: None }
     }
 
     fn odd_shapes() -> Vec<Polygon> {

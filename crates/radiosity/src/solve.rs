@@ -1,9 +1,10 @@
-//! Room 6: B = E + ρ ⊙ (F B), gathered or shot. A page: every algorithm here is the general theory's.
+//! Room 6: B = f + ρ ⊙ (F B) with f = E + ρ H of point lights, gathered or shot. A page: every algorithm here is the general theory's.
 
 use crate::closure::Closure;
 use crate::elements::{Elements, Space};
 use crate::form_factor::{FormFactors, point_to_point};
 use crate::kernel::Lambertian;
+use crate::lights;
 use crate::patches::Patches;
 use crate::visibility::Visibility;
 use fredholm::direct::Direct;
@@ -56,7 +57,7 @@ pub struct Options {
     pub solver: Solver,
     /// The standard error that a row sum Σ_j F_ij may have from sampled visibility.
     pub accuracy: f64,
-    /// The residual to reach, ‖r‖∞ relative to ‖E‖∞.
+    /// The residual to reach, ‖r‖∞ relative to ‖f‖∞.
     pub tolerance: f64,
     /// The most iterations.
     pub iterations: usize,
@@ -67,7 +68,7 @@ pub struct Options {
 }
 
 impl Default for Options {
-    /// Galerkin by Gauss–Seidel: row sums to 10⁻³, a residual of 10⁻⁶ of the brightest emission, 8 GiB.
+    /// Galerkin by Gauss–Seidel: row sums to 10⁻³, a residual of 10⁻⁶ of the brightest source, 8 GiB.
     fn default() -> Self {
         Self {
             method: Method::Galerkin,
@@ -140,10 +141,12 @@ impl<V: Value> Observer<V> for Unobserved {
 /// The radiosity of each patch, or each coefficient of a space on the patches, and how well it is known.
 #[derive(Clone, Debug)]
 pub struct Solution<V> {
-    /// B = E + ρ ⊙ (F u) for the solver's last u, W/m²: the residual is added to u, as the progressive method does.
+    /// B = f + ρ ⊙ (F u) for the solver's last u, W/m²: the residual is added to u, as the progressive method does.
     pub radiosity: Vec<V>,
-    /// H = F u, the irradiance of each patch, W/m².
+    /// H, the irradiance of each patch: F u, and what point lights send. W/m².
     pub irradiance: Vec<V>,
+    /// The residual that was to be reached, W/m².
+    pub target: f64,
     /// How the relaxation went.
     pub report: Report,
     /// ‖ρF‖∞, from the row sums of F.
@@ -174,8 +177,10 @@ pub fn solve<V: Value>(
     observer: &mut dyn Observer<V>,
 ) -> Result<Solution<V>, SolveError> {
     let accuracy = options.accuracy;
-    let Patches { emission, reflectance, areas, .. } = patches;
-    let run = Run { patches, visibility, options, emission, reflectance, weights: areas, space: None };
+    let Patches { reflectance, areas, .. } = patches;
+    let lit = &lights::mean_irradiances(patches, visibility);
+    let source = &source(&patches.emission, reflectance, lit);
+    let run = Run { patches, visibility, options, source, lit, reflectance, weights: areas, space: None };
     match options.method {
         Method::Nystrom => {
             let coupling = point_to_point(patches, visibility);
@@ -204,9 +209,11 @@ pub fn solve_elements<V: Value>(
     options: &Options,
     observer: &mut dyn Observer<V>,
 ) -> Result<Solution<V>, SolveError> {
-    let (emission, reflectance) = (&space.spread(&patches.emission), &space.spread(&patches.reflectance));
+    let reflectance = &space.spread(&patches.reflectance);
+    let lit = &space.interpolate(|node| lights::irradiance(&patches.lights, visibility, node));
+    let source = &source(&space.spread(&patches.emission), reflectance, lit);
     let weights = space.weights();
-    let run = Run { patches, visibility, options, emission, reflectance, weights, space: Some(space) };
+    let run = Run { patches, visibility, options, source, lit, reflectance, weights, space: Some(space) };
     let coupling = match options.method {
         Method::Nystrom => {
             let nodes = space.interpolate(|node| *node);
@@ -220,12 +227,18 @@ pub fn solve_elements<V: Value>(
     run.keep(&coupling, &|| coupling.rays(), observer)
 }
 
+/// f = E + ρ H, of the irradiance H from point lights.
+pub fn source<V: Value>(emission: &[V], reflectance: &[V], lit: &[V]) -> Vec<V> {
+    emission.iter().zip(reflectance).zip(lit).map(|((e, rho), h)| *e + *rho * *h).collect()
+}
+
 struct Run<'a, V> {
     patches: &'a Patches<V>,
     visibility: &'a Visibility,
     options: &'a Options,
-    /// E, ρ and the area that it stands for, of each unknown.
-    emission: &'a [V],
+    /// f, its H from point lights, ρ and the area that it stands for, of each unknown.
+    source: &'a [V],
+    lit: &'a [V],
     reflectance: &'a [V],
     weights: &'a [f64],
     /// Whose coefficients the unknowns are, if they are not the patches' own.
@@ -256,7 +269,7 @@ impl<V: Value> Run<'_, V> {
     ) -> Result<Solution<V>, SolveError> {
         let start = Instant::now();
         let n = operator.dim();
-        let system = System::new(self.emission, self.reflectance, operator)?;
+        let system = System::new(self.source, self.reflectance, operator)?;
         let southwell = Southwell::new(system, self.weights);
         let mut southwell = if self.options.ambient { southwell.with_ambient() } else { southwell };
         let report = self.relax(&mut southwell, observer)?;
@@ -264,7 +277,7 @@ impl<V: Value> Run<'_, V> {
         let every = self.options.method == Method::Nystrom || self.space.is_some();
         let checked = spread(n, if every { n } else { SAMPLED_ROWS });
         let computed = ((report.residuals.len() + checked.len()) * n) as u64;
-        let solution = self.judge(system, southwell.gathered().to_vec(), report, &checked);
+        let solution = self.judge(system, southwell.gathered(), report, &checked);
         Ok(Solution { form_factors: computed, solve_seconds: start.elapsed().as_secs_f64(), ..solution })
     }
 
@@ -280,7 +293,7 @@ impl<V: Value> Run<'_, V> {
         let matrix = Dense::<f32>::assemble(coupling, |entries| observer.assembled(entries))?;
         let assembly_seconds = start.elapsed().as_secs_f64();
         let start = Instant::now();
-        let system = System::new(self.emission, self.reflectance, &matrix)?;
+        let system = System::new(self.source, self.reflectance, &matrix)?;
         let mut relaxation: Box<dyn Relaxation<V> + '_> = match self.options.solver {
             Solver::Jacobi => Box::new(Jacobi::new(system)),
             Solver::Successive => Box::new(SuccessiveApproximation::new(system)),
@@ -293,7 +306,7 @@ impl<V: Value> Run<'_, V> {
         let report = self.relax(&mut *relaxation, observer)?;
         let mut irradiance = vec![V::splat(0.0); n];
         matrix.apply(&relaxation.solution(), &mut irradiance);
-        let solution = self.judge(system, irradiance, report, &spread(n, n));
+        let solution = self.judge(system, &irradiance, report, &spread(n, n));
         let half = if coupling.reciprocity().is_some() { n * (n + 1) / 2 } else { n * n };
         Ok(Solution {
             form_factors: half as u64,
@@ -322,7 +335,7 @@ impl<V: Value> Run<'_, V> {
         relaxation: &mut dyn Relaxation<V>,
         observer: &mut dyn Observer<V>,
     ) -> Result<Report, SolveError> {
-        let target = self.options.tolerance * max_norm(self.emission);
+        let target = self.target();
         // A second factorisation would find the same.
         let sweeps = if self.options.solver == Solver::Direct { 1 } else { self.options.iterations };
         let stop = Stop { residual: target, sweeps };
@@ -336,16 +349,20 @@ impl<V: Value> Run<'_, V> {
         }
     }
 
-    /// The solution from the irradiance H = F u, with what the row sums of F say of it.
+    fn target(&self) -> f64 {
+        self.options.tolerance * max_norm(self.source)
+    }
+
+    /// The solution from what patches receive of each other, F u, with what the row sums of F say of it.
     fn judge<F: Rows>(
         &self,
         system: System<'_, V, F>,
-        irradiance: Vec<V>,
+        received: &[V],
         report: Report,
         checked: &[usize],
     ) -> Solution<V> {
-        let terms = system.source.iter().zip(system.coefficient).zip(&irradiance);
-        let radiosity = terms.map(|((e, rho), h)| *e + *rho * *h).collect();
+        let radiosity = source(system.source, system.coefficient, received);
+        let irradiance = received.iter().zip(self.lit).map(|(h, lit)| *h + *lit).collect();
         let sums = row_sums(system.operator, checked);
         let norm = if sums.len() == system.dim() {
             norm_bound(system.coefficient, &sums)
@@ -357,6 +374,7 @@ impl<V: Value> Run<'_, V> {
         Solution {
             radiosity,
             irradiance,
+            target: self.target(),
             error_bound: error_bound(report.residual, norm),
             report,
             norm,

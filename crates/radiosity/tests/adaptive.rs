@@ -10,7 +10,8 @@ use glam::DVec3;
 use radiosity::adaptive::{Domain, Field, Request, solve};
 use radiosity::form_factor::lambert::point_to_polygon;
 use radiosity::polygon::Polygon;
-use radiosity::scene::Scene;
+use radiosity::scene::{PointLight, Scene};
+use std::f64::consts::PI;
 
 fn request(accuracy: f64) -> Request {
     Request { accuracy, ..Request::default() }
@@ -210,4 +211,24 @@ fn patience_ends_where_the_observer_says() {
     assert!(field.bound().total() > 1e-4);
     let few = solve(&domain, &Request { accuracy: 1e-4, most_cells: 1000 }, |_| true);
     assert!(few.size()[0] <= 1000);
+}
+
+#[test]
+fn a_point_light_in_a_cube_is_reflected_as_geometry_says() {
+    // CIE 171:2006, TC 5.8: the mean of what is reflected is Φ ρ/(S (1 − ρ)), whatever the shape of a closed room.
+    let mut scene = scene([walls(DVec3::ZERO, DVec3::splat(4.0), false).to_vec()], 0.7);
+    let position = p(1.0, 2.5, 3.0);
+    scene.lights = vec![PointLight { position, intensity: 10_000.0 / (4.0 * PI), direction: None }];
+    solved(&scene, 0.01, |field, faces| {
+        let parts = field.parts();
+        let all: f64 = parts.iter().map(|part| part.irradiance * part.polygon.area()).sum();
+        let expected = 10_000.0 / (1.0 - 0.7);
+        assert!((all / expected - 1.0).abs() < 0.01, "{all} lm for {expected}");
+        // The point under the light has its light to the last digit, and what else there is.
+        let under = field.irradiance(0, p(1.0, 2.5, 0.0));
+        let straight = 10_000.0 / (4.0 * PI) / 9.0;
+        let reflected = 10_000.0 * 0.7 / (96.0 * 0.3);
+        assert!((0.7..1.3).contains(&((under - straight) / reflected)), "{under}");
+        assert_eq!(faces.len(), 6);
+    });
 }

@@ -238,3 +238,38 @@ fn the_unit_changes_nothing() {
         assert!(loaded("v 2 1e-7 0\nf 1 2 5").unwrap_err().contains("no area"));
     }
 }
+
+#[test]
+fn lights() {
+    let light = |rest: &str, place, words| {
+        let mut files = obj("f 1 2 3 4");
+        files.insert(
+            0,
+            ("a.toml", format!("unit = 'm'\nmeshes = ['a.obj']\n[[light]]\nposition = [0, 0, 1]\n{rest}\n")),
+        );
+        Case { files, place, words }
+    };
+    check(
+        "light",
+        &[
+            light("intensity = -1", "a.toml:5", &["light 1", "intensity is -1", "not negative"]),
+            light("intensity = [1, nan, 1]", "a.toml:5", &["intensity is NaN in channel 2"]),
+            light("flux = inf", "a.toml:5", &["flux is inf", "finite"]),
+            light("", "a.toml:4", &["light 1", "either an `intensity` or a `flux`"]),
+            light("intensity = 1\nflux = 1", "a.toml:6", &["either", "give one"]),
+            light("intensity = 'bright'", "a.toml:5", &["expected a number or [red, green, blue]"]),
+            light("intensity = 1\ndirection = [0, 0, 0]", "a.toml:6", &["direction has no length"]),
+            light("intensity = 1\ndirection = [0, nan, 0]", "a.toml:6", &["direction"]),
+            light("intensity = 1\ncolour = 1", "a.toml:6", &["unknown field `colour`"]),
+            light(
+                "intensity = 1\n[[light]]\nposition = [inf, 0, 0]\nflux = 1",
+                "a.toml:7",
+                &["light 2", "position"],
+            ),
+            light("flux = 1\n[[light]]\nflux = 1", "a.toml:6", &["missing field `position`"]),
+        ],
+    );
+    let mut photometric = light("flux = [1, 1, 1]", "a.toml:6", &["one channel", "lm"]);
+    photometric.files[0].1.insert_str(0, "units = 'photometric'\n");
+    check("photometric light", &[photometric]);
+}

@@ -17,6 +17,10 @@ must be there:
   meshes = [\"room.obj\"]
   [materials.lamp]                     # as named by usemtl
   radiance = [30, 28, 20]              # or emission, in W/m²; reflectance is a number or three
+  [[light]]                            # a point light; as many as there are
+  position = [4000, 2500, 2400]
+  intensity = 20                       # W/sr, or three; or flux, in W
+  direction = [0, 0, -1]               # if it is diffuse, I cosθ; else alike in all directions
   [camera]                             # found by itself if left out
   position = [8500, 500, 1700]
   target = [2200, 4600, 1600]
@@ -38,7 +42,7 @@ view factors are known. Here a shield floats between two plates:
   ]
 
 With units = \"photometric\" materials have a luminance in cd/m², a luminous_exitance in lm/m² or a
-luminous_flux in lm, and all is grey.
+luminous_flux in lm, lights an intensity in cd or a flux in lm, and all is grey.
 
 \
 Examples:

@@ -9,9 +9,11 @@ use crate::output::Folder;
 use anyhow::Result;
 use fredholm::neumann::estimated_rest;
 use fredholm::value::{Rgb, Value};
+use radiosity::lights::mean_irradiances;
 use radiosity::patches::Patches;
 use radiosity::render::{Colour, Exposure, Picture, Preview};
 use radiosity::scene::Units;
+use radiosity::solve::source;
 use std::f64::consts::PI;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -50,7 +52,7 @@ impl Frames {
             every: args.every.unwrap_or(usual),
             preview: Preview::new(&view, &domain.polygons, &domain.patches, &domain.visibility),
             units,
-            exposure: (!args.false_colour).then(|| exposure(&domain.patches)),
+            exposure: (!args.false_colour).then(|| exposure(domain)),
             files: Vec::new(),
             preparing: start.elapsed().as_secs_f64(),
             recording: 0.0,
@@ -99,9 +101,10 @@ const BRIGHT: f64 = 2.0;
 
 /// One exposure for all frames, so that the light is seen to grow, and known before there is any: from the mean of
 /// the reflected light, as the ambient term of progressive radiosity estimates it.
-fn exposure<V: Colour>(patches: &Patches<V>) -> Exposure {
-    let Patches { emission, reflectance, areas, .. } = patches;
-    let irradiance = estimated_rest(emission, reflectance, areas).to_rgb();
+fn exposure<V: Colour>(domain: &Domain<'_, V>) -> Exposure {
+    let Patches { emission, reflectance, areas, .. } = &domain.patches;
+    let lit = mean_irradiances(&domain.patches, &domain.visibility);
+    let irradiance = estimated_rest(&source(emission, reflectance, &lit), reflectance, areas).to_rgb();
     let total: f64 = areas.iter().sum();
     let mean = |sum: Rgb, (rho, area): (&V, &f64)| sum + rho.to_rgb() * (area / total);
     let reflectance = reflectance.iter().zip(areas).fold(Rgb::splat(0.0), mean);

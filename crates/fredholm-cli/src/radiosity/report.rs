@@ -37,7 +37,7 @@ pub struct Report {
     pub outcome: &'static str,
     /// Iterations made.
     pub iterations: usize,
-    /// ‖E + ρ ⊙ (F u) − u‖∞ of the last u.
+    /// ‖f + ρ ⊙ (F u) − u‖∞ of the last u.
     pub residual: f64,
     /// The residual that was asked for.
     pub target: f64,
@@ -57,6 +57,8 @@ pub struct Report {
     pub accuracy: f64,
     /// Whether no light at all reaches any surface.
     pub dark: bool,
+    /// How many point lights the scene has.
+    pub point_lights: usize,
     /// Form factors computed.
     pub form_factors: u64,
     /// Rays cast for them.
@@ -145,7 +147,6 @@ impl Report {
     ) -> Self {
         let unknowns = space.map_or(domain.patches.len(), Space::dim);
         let options = settings.options(unknowns);
-        let brightest = fredholm::value::max_norm(&domain.patches.emission);
         let (closure_defect, closure_rows, escaping) = match solution.closure {
             Closure::Open { escaping } => (None, None, Some(escaping)),
             Closure::Closed { rows: 0, .. } => (None, Some(0), None),
@@ -166,7 +167,7 @@ impl Report {
             },
             iterations: solution.report.residuals.len(),
             residual: solution.report.residual,
-            target: options.tolerance * brightest,
+            target: solution.target,
             error_bound: solution.error_bound,
             norm: solution.norm,
             norm_rows: solution.rows,
@@ -175,6 +176,7 @@ impl Report {
             escaping,
             accuracy: options.accuracy,
             dark: solution.irradiance.iter().all(|h| h.magnitude() == 0.0),
+            point_lights: domain.scene.lights.len(),
             form_factors: solution.form_factors,
             rays: solution.rays,
             seconds,

@@ -52,6 +52,9 @@ fn lines(report: &Report) -> Vec<(&'static str, String)> {
     if report.unknowns > report.patches {
         lines.insert(1, ("space", space(report)));
     }
+    if report.point_lights > 0 {
+        lines.insert(0, ("point lights", grouped(report.point_lights as u64)));
+    }
     if let Some(bytes) = report.peak_memory_bytes {
         lines.push(("memory", format!("{} MB at most", grouped(bytes >> 20))));
     }

@@ -3,8 +3,11 @@
 use super::links::{Coarseness, Descent, Link};
 use super::tree::{Node, Tree};
 use crate::form_factor::outlook::{Outlook, Outlooks, Seen, View};
+use crate::kernel::SurfacePoint;
+use crate::lights;
 use crate::polygon::Polygon;
-use crate::scene::{Scene, Surface};
+use crate::scene::{PointLight, Scene, Surface};
+use crate::visibility::Visibility;
 use fredholm::value::Value;
 use glam::DVec3;
 use std::sync::OnceLock;
@@ -17,6 +20,9 @@ pub struct Domain<'a, V> {
     emission: Vec<V>,
     /// The faces that emit; none where they are too many to be looked at one by one.
     lamps: Vec<u32>,
+    /// Lights that are points, and what hides them.
+    points: Vec<PointLight<V>>,
+    visibility: Option<Visibility>,
     all: Outlooks<'a>,
     outlooks: Vec<OnceLock<Outlook>>,
 }
@@ -44,6 +50,8 @@ impl<'a, V: Value> Domain<'a, V> {
             reflectance: of_faces(|s| s.reflectance),
             lamps: if lamps.len() <= MOST_LAMPS { lamps } else { Vec::new() },
             emission,
+            points: scene.lights.clone(),
+            visibility: (!scene.lights.is_empty()).then(|| Visibility::new(faces)),
             all: Outlooks::new(faces),
             outlooks: faces.iter().map(|_| OnceLock::new()).collect(),
         }
@@ -115,10 +123,17 @@ impl<'a, V: Value> Domain<'a, V> {
         Descent { tree, outlook: self.outlook(face), coarseness, point, normal }.links(view)
     }
 
-    /// The irradiance that arrives at a point of a face straight from the lamps, in W/m².
+    /// The irradiance at a point of a face straight from the lights that are points, in W/m².
+    pub(super) fn from_points(&self, face: u32, position: DVec3) -> V {
+        let at = SurfacePoint { position, normal: self.faces[face as usize].normal() };
+        let visibility = self.visibility.as_ref();
+        visibility.map_or(V::splat(0.0), |visibility| lights::irradiance(&self.points, visibility, &at))
+    }
+
+    /// The irradiance that arrives at a point of a face straight from the lamps and from points, in W/m².
     pub(super) fn direct(&self, face: u32, point: DVec3, view: &mut View) -> V {
         let outlook = self.outlook(face);
-        let mut sum = V::splat(0.0);
+        let mut sum = self.from_points(face, point);
         view.go(outlook, point);
         for &lamp in &self.lamps {
             let Ok(k) = outlook.seen.binary_search_by_key(&lamp, |(face, _)| *face) else { continue };

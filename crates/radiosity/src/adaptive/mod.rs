@@ -1,4 +1,4 @@
-//! û(x) = E(x) + ρ(x) ∫ K(x, y) û(y) dy to an accuracy that is asked for: the mesh, the form factors and the iteration are
+//! û(x) = f(x) + ρ(x) ∫ K(x, y) û(y) dy to an accuracy that is asked for: the mesh, the form factors and the iteration are
 //! found on the way, and the residual of this very equation says when to stop.
 //!
 //! The method is collocation, P_n u = u at the centres of cells (paper, §1.3.2 and §3.2.1), with Nyström's interpolant (1.29)

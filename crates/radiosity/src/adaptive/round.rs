@@ -84,7 +84,13 @@ fn solved<V: Value>(domain: &Domain<'_, V>, operator: Links<'_>, accuracy: f64) 
     // E is the same all over a face, and its links have all of the face together: this is ∫ K E to the last digit.
     let emission: Vec<V> = tree.nodes.iter().map(|node| domain.emission(node.face)).collect();
     let direct: Vec<V> = operator.links.iter().map(|links| gathered(links, &emission)).collect();
-    let source: Vec<V> = direct.iter().zip(&reflectance).map(|(h, rho)| *h * *rho).collect();
+    let of_points = cells.par_iter().map(|&cell| {
+        let node = tree.node(cell);
+        domain.from_points(node.face, domain.node_of(node))
+    });
+    let of_points: Vec<V> = of_points.collect();
+    let lit = direct.iter().zip(&of_points).zip(&reflectance);
+    let source: Vec<V> = lit.map(|((lamps, points), rho)| (*lamps + *points) * *rho).collect();
     let system = System { source: &source, coefficient: &reflectance, operator: &operator };
     let stop = Stop { residual: ITERATION * accuracy * max_norm(&source), sweeps: SWEEPS };
     let mut relaxation = SuccessiveApproximation::new(system);

@@ -23,7 +23,7 @@ fn scene() -> Scene<Rgb> {
         surface("a, \"b\"", [0.1, 0.2, 0.3], vec![square]),
         surface("tür", [0.4, 0.5, 0.6], vec![triangle]),
     ];
-    Scene { name: "export".into(), surfaces, camera: None }
+    Scene { name: "export".into(), surfaces, lights: Vec::new(), camera: None }
 }
 
 /// Writes the scene, cut into 3 patches, with B = (i, i + 1/7, −i) and H = 10 B.

@@ -105,7 +105,7 @@ mod tests {
             surface("floor", 0.0, vec![square(0.0, 5.0)]),
             surface("shade", 0.0, blocker.into_iter().collect()),
         ];
-        Scene { name: "test".into(), surfaces, camera: None }
+        Scene { name: "test".into(), surfaces, lights: Vec::new(), camera: None }
     }
 
     fn irradiance(scene: &Scene<f64>, x: DVec3, rotation: Rotation) -> f64 {

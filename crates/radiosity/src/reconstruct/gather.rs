@@ -3,6 +3,8 @@
 //! A patch is the mean of what lies on it: a block's foot, a shadow's edge. Seen from afar that is enough; a ray that
 //! ends nearer than the patch is large asks for the light at its very end instead, with a few rays of its own.
 
+use crate::kernel::SurfacePoint;
+use crate::lights;
 use crate::patches::Patches;
 use crate::polygon::Polygon;
 use crate::reconstruct::{Lamps, Site, lattice};
@@ -62,10 +64,23 @@ impl<V: Value> Gather<'_, V> {
     fn radiosity_at(&self, site: &Site, patch: usize) -> V {
         let gathered = self.mean_of_rays(site, NEAR_RAYS, |gather, _, patch, _| gather.radiosity[patch]);
         let reflectance = self.patches.reflectance[patch];
+        let irradiance = gathered.irradiance + self.of_points(site);
         match &self.lamps {
-            Some(lamps) => reflectance * (gathered.irradiance + lamps.roughly(site, NEAR_RAYS)),
-            None => self.patches.emission[patch] + reflectance * gathered.irradiance,
+            Some(lamps) => reflectance * (irradiance + lamps.roughly(site, NEAR_RAYS)),
+            None => self.patches.emission[patch] + reflectance * irradiance,
         }
+    }
+
+    /// The irradiance straight from lamps and point lights, in W/m², but for that of lamps which are not counted on their
+    /// own.
+    pub fn direct(&self, site: &Site) -> V {
+        let lamps = self.lamps.as_ref().map_or(V::splat(0.0), |lamps| lamps.irradiance(site));
+        lamps + self.of_points(site)
+    }
+
+    fn of_points(&self, site: &Site) -> V {
+        let at = SurfacePoint { position: site.point, normal: site.normal };
+        lights::irradiance(&self.patches.lights, self.visibility, &at)
     }
 
     /// The mean of what `seen` at the ends of the rays: (self, end, patch, length).
@@ -136,7 +151,7 @@ mod tests {
             polygons: vec![polygon.clone()],
         };
         let surfaces = vec![surface("floor", 0.0, &floor), surface("lamp", 100.0, &lamp)];
-        let scene = Scene { name: "test".into(), surfaces, camera: None };
+        let scene = Scene { name: "test".into(), surfaces, lights: Vec::new(), camera: None };
         let (polygons, patches) = (vec![floor, lamp], Patches::new(&scene, 1.0).unwrap());
         let visibility = Visibility::new(&polygons);
         let gather = Gather {
@@ -158,7 +173,7 @@ mod tests {
     fn gathered(polygons: &[Polygon]) -> f64 {
         let surface =
             Surface { name: "s".into(), reflectance: 0.5, emission: 0.0, polygons: polygons.to_vec() };
-        let scene = Scene { name: "test".into(), surfaces: vec![surface], camera: None };
+        let scene = Scene { name: "test".into(), surfaces: vec![surface], lights: Vec::new(), camera: None };
         let patches = Patches::new(&scene, 0.5).unwrap();
         let gather = Gather {
             polygons,

@@ -94,7 +94,7 @@ impl<'a, V: Colour> Lighting<'a, V> {
         let normal = self.gather.polygons[fragment.shown as usize].normal();
         let site =
             Site { point: fragment.point + normal * self.gather.lift, normal, rotation: Rotation::of(pixel) };
-        let direct = self.gather.lamps.as_ref().map_or(V::splat(0.0), |lamps| lamps.irradiance(&site));
+        let direct = self.gather.direct(&site);
         let gathered = self.gather.at(&site);
         let radiance = |exitance: V| exitance.to_rgb() * (1.0 / PI);
         Lit {
@@ -115,7 +115,7 @@ fn extent(polygons: &[Polygon]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Camera;
+    use crate::scene::{Camera, PointLight};
     use glam::DVec3;
 
     fn p(x: f64, y: f64, z: f64) -> DVec3 {
@@ -137,7 +137,7 @@ mod tests {
 
     fn furnace(polygons: Vec<Polygon>) -> Scene<f64> {
         let surface = Surface { name: "wall".into(), reflectance: 0.6, emission: 2.0, polygons };
-        Scene { name: "furnace".into(), surfaces: vec![surface], camera: None }
+        Scene { name: "furnace".into(), surfaces: vec![surface], lights: Vec::new(), camera: None }
     }
 
     fn picture_of(scene: &Scene<f64>, camera: Camera) -> Picture {
@@ -179,6 +179,41 @@ mod tests {
                 "{equal} of {}",
                 seen.len()
             );
+        }
+    }
+
+    #[test]
+    fn a_point_light_draws_a_sharp_shadow() {
+        // A black shade half-way under the light hides |x|, |y| < 1/2 of the floor z = 0.
+        let square = |z: f64, half: f64| {
+            let corner = |x, y| p(x * half, y * half, z);
+            Polygon::quadrilateral(corner(-1., -1.), corner(1., -1.), corner(1., 1.), corner(-1., 1.))
+        };
+        let surface = |name: &str, reflectance, polygon| Surface {
+            name: name.into(),
+            reflectance,
+            emission: 0.0,
+            polygons: vec![polygon],
+        };
+        let surfaces =
+            vec![surface("floor", 0.5, square(0.0, 1.0)), surface("shade", 0.0, square(1.0, 0.25))];
+        let light = PointLight { position: p(0.0, 0.0, 2.0), intensity: 8.0, direction: None };
+        let scene = Scene { name: "shadow".into(), surfaces, lights: vec![light], camera: None };
+        let (patches, visibility) = (Patches::new(&scene, 0.5).unwrap(), Visibility::new(&scene.polygons()));
+        // From aside under the shade, at both sides of the edge of its shadow.
+        for (x, lit) in [(0.48, false), (0.52, true)] {
+            let camera = Camera {
+                position: p(0.9, 0.0, 0.4),
+                target: p(x, 0.0, 0.0),
+                up: DVec3::Z,
+                vertical_angle: 1e-4,
+            };
+            let view = View { camera, width: 1, height: 1, samples: 1, gather: 16 };
+            let picture =
+                final_picture(&view, &scene, &patches, &visibility, &vec![0.0; patches.len()], &|_| ());
+            let distance: f64 = p(x, 0.0, 2.0).length();
+            let expected = if lit { 0.5 / PI * 8.0 * 2.0 / distance.powi(3) } else { 0.0 };
+            assert!((picture.pixels[0].0[0] - expected).abs() <= 1e-4 * expected, "{x}: {picture:?}");
         }
     }
 

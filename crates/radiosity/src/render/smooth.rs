@@ -124,7 +124,7 @@ mod tests {
         let triangle = |z| Polygon::triangle(p(0.0, 0.0, z), p(1.0, 0.0, z), p(0.0, 1.0, z));
         let polygons = vec![triangle(0.0), triangle(second_height)];
         let surface = Surface { name: "s".into(), reflectance: 0.5, emission: 0.0, polygons };
-        let scene = Scene { name: "t".into(), surfaces: vec![surface], camera: None };
+        let scene = Scene { name: "t".into(), surfaces: vec![surface], lights: Vec::new(), camera: None };
         let fragment =
             |x: usize| Fragment { shown: u32::from(x >= 8), weight: 1.0, point: x as f64 * 0.01 * DVec3::X };
         let fragments = Fragments::with_one_each(16, 1, (0..16).map(fragment).collect());

@@ -1,7 +1,7 @@
 //! What must hold of a scene, by whichever door it came in: 0 ≤ ρ < 1, 0 ≤ E < ∞, some face, some light.
 
 use super::error::Problem;
-use super::{Camera, Scene, Surface};
+use super::{Camera, PointLight, Scene, Surface};
 use fredholm::value::Value;
 
 impl<V: Value> Scene<V> {
@@ -10,7 +10,7 @@ impl<V: Value> Scene<V> {
     /// # Errors
     ///
     /// When a reflectance lies outside [0, 1), an emission is negative or infinite, a polygon has no area, the camera
-    /// cannot see, or there are no faces or no light at all.
+    /// cannot see, a light is nowhere or takes light away, or there are no faces or no light at all.
     pub fn check(&self) -> Result<(), Problem> {
         self.check_shape()?;
         self.check_light()
@@ -22,11 +22,13 @@ impl<V: Value> Scene<V> {
         if self.surfaces.iter().all(|surface| surface.polygons.is_empty()) {
             return Err(Problem::NoFaces);
         }
+        (1..).zip(&self.lights).try_for_each(|(number, given)| light(number, given))?;
         self.camera.as_ref().map_or(Ok(()), Camera::check)
     }
 
     pub(super) fn check_light(&self) -> Result<(), Problem> {
-        if self.surfaces.iter().all(|surface| surface.emission.magnitude() == 0.0) {
+        let dark = self.surfaces.iter().all(|surface| surface.emission.magnitude() == 0.0);
+        if dark && self.lights.iter().all(|light| light.intensity.magnitude() == 0.0) {
             return Err(Problem::NoLight);
         }
         Ok(())
@@ -57,6 +59,29 @@ pub(super) fn emission<V: Value>(owner: &str, emission: &V) -> Result<(), Proble
     }
 }
 
+/// The point light of a number, counted from 1.
+pub(super) fn light<V: Value>(number: usize, light: &PointLight<V>) -> Result<(), Problem> {
+    let bad = |what: String| Err(Problem::Light { number, what });
+    if !light.position.is_finite() {
+        return bad("its position must be three finite numbers".to_owned());
+    }
+    if light.direction.is_some_and(|direction| !direction.is_normalized()) {
+        return bad("its direction has no length; give a vector, or leave it out".to_owned());
+    }
+    amount_of_light(number, "intensity", &light.intensity)
+}
+
+/// The intensity or the flux of a point light.
+pub(super) fn amount_of_light<V: Value>(number: usize, name: &str, value: &V) -> Result<(), Problem> {
+    match first_outside(value, |c| (0.0..f64::INFINITY).contains(&c)) {
+        Some((channel, value)) => Err(Problem::Light {
+            number,
+            what: format!("its {name} is {value} in channel {channel}; it must be finite and not negative"),
+        }),
+        None => Ok(()),
+    }
+}
+
 /// The first channel, counted from 1, that is not as it should be.
 fn first_outside<V: Value>(value: &V, is_good: impl Fn(f64) -> bool) -> Option<(usize, f64)> {
     (1..).zip(value.channels().iter().copied()).find(|&(_, c)| !is_good(c))
@@ -72,7 +97,7 @@ mod tests {
     fn lamp(reflectance: Rgb, emission: Rgb) -> Scene<Rgb> {
         let polygons = vec![Polygon::triangle(DVec3::ZERO, DVec3::X, DVec3::Y)];
         let surfaces = vec![Surface { name: "lamp".to_owned(), reflectance, emission, polygons }];
-        Scene { name: "test".to_owned(), surfaces, camera: None }
+        Scene { name: "test".to_owned(), surfaces, lights: Vec::new(), camera: None }
     }
 
     #[test]

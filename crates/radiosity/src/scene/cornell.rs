@@ -103,7 +103,12 @@ impl Data {
         let lamp = vec![Polygon::quadrilateral(a, b, c, d)];
         let lamp = surface("light", V::splat(self.light.reflectance), lamp_radiance * PI, lamp);
         let surfaces = walls.chain([lamp]).collect();
-        Scene { name: "Cornell box".to_owned(), surfaces, camera: Some(self.camera.camera()) }
+        Scene {
+            name: "Cornell box".to_owned(),
+            surfaces,
+            lights: Vec::new(),
+            camera: Some(self.camera.camera()),
+        }
     }
 
     /// The ceiling without the lamp's hole: nine rectangles without the middle one, which share whole edges.

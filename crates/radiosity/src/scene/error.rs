@@ -191,6 +191,14 @@ pub enum Problem {
         /// What it is, as an exitance.
         value: f64,
     },
+    /// A point light that is nowhere, or takes light away.
+    #[error("light {number}: {what}")]
+    Light {
+        /// Which one, counted from 1.
+        number: usize,
+        /// What is wrong, and what to do.
+        what: String,
+    },
     /// A face of a material that nothing defines.
     #[error(
         "no material is called `{name}`; {known}. Define it in the .mtl file or under [materials] in the .toml"
@@ -214,7 +222,8 @@ pub enum Problem {
     NoFaces,
     /// A scene in which it is night.
     #[error(
-        "no surface emits light, so the solution is zero; give a material a `radiance` (.toml) or a `Ke` (.mtl)"
+        "no surface emits light and no light shines, so the solution is zero; give a material a `radiance` (.toml) or a `Ke` (.mtl), or the \
+         scene a [[light]] (.toml)"
     )]
     NoLight,
     /// A surface that exchanges no heat as it is described.

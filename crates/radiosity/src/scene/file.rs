@@ -12,6 +12,11 @@
 //!                                       # `luminance` in cd/m², `luminous_exitance` in lm/m², or `luminous_flux` in lm
 //!                                       # of each surface of the material
 //!
+//! [[light]]                             # as many point lights as there are
+//! position = [1000, 1000, 2400]
+//! intensity = 20                        # W/sr, or [red, green, blue]; or `flux` in W. Photometric: cd, or lm
+//! direction = [0, 0, -1]                # if the light is diffuse, I cosθ; else it shines alike in all directions
+//!
 //! [camera]
 //! position = [1000, -3000, 1500]
 //! target = [1000, 0, 1200]              # or `direction`
@@ -28,6 +33,7 @@
 //! ```
 
 use super::error::{Error, Place, Problem};
+use super::light_entry::LightEntry;
 use super::load::{Loaded, SolveOptions, read_mesh};
 use super::material::{Located, Material};
 use super::mesh::{self, Assembled, Mesh};
@@ -57,10 +63,11 @@ pub(super) fn load(file: &Path, units: Option<Units>) -> Result<Loaded, Error> {
     if units == Units::Photometric {
         photometric::check_grey(&meshes, &overrides)?;
     }
+    let lights = source.lights(&entry.light, metres, units)?;
     let camera = entry.camera.map(|camera| source.camera(&camera, metres)).transpose()?;
     let Assembled { surfaces, faces, warnings } = mesh::assemble(meshes, &overrides)?;
     let name = entry.name.unwrap_or_else(|| super::load::file_name(file));
-    let scene = Scene { name, surfaces, camera };
+    let scene = Scene { name, surfaces, lights, camera };
     let mut solve = entry.solve;
     solve.patch_size = solve.patch_size.map(|size| size * metres);
     Ok(Loaded { scene, solve, faces, warnings, control: None, units })
@@ -75,6 +82,8 @@ struct SceneEntry {
     meshes: Spanned<Vec<Spanned<String>>>,
     #[serde(default)]
     materials: BTreeMap<Spanned<String>, MaterialEntry>,
+    #[serde(default)]
+    light: Vec<LightEntry>,
     camera: Option<Spanned<CameraEntry>>,
     #[serde(default)]
     solve: SolveOptions,
@@ -103,13 +112,13 @@ pub(super) struct CameraEntry {
 
 #[derive(Clone, Copy, Deserialize)]
 #[serde(untagged, expecting = "expected a number or [red, green, blue]")]
-enum Channels {
+pub(super) enum Channels {
     Grey(f64),
     Colour([f64; 3]),
 }
 
 impl Channels {
-    fn colour(self) -> Rgb {
+    pub fn colour(self) -> Rgb {
         match self {
             Self::Grey(grey) => Spectrum([grey; 3]),
             Self::Colour(colour) => Spectrum(colour),

@@ -98,7 +98,7 @@ fn bare_mesh(path: &Path, units: Units) -> Result<Loaded, Error> {
         photometric::check_grey(&meshes, &overrides)?;
     }
     let Assembled { surfaces, faces, warnings } = mesh::assemble(meshes, &overrides)?;
-    let scene = Scene { name, surfaces, camera: None };
+    let scene = Scene { name, surfaces, lights: Vec::new(), camera: None };
     Ok(Loaded { scene, solve: SolveOptions::default(), faces, warnings, control, units })
 }
 

@@ -17,6 +17,8 @@ mod error;
 mod examine;
 mod face;
 mod file;
+mod light;
+mod light_entry;
 mod load;
 mod material;
 mod mesh;
@@ -36,6 +38,7 @@ pub use error::{Error, Place, Problem, Warning};
 pub use examine::{Component, Defect, Finding, Report, examine};
 pub use face::Face;
 pub use file::percent;
+pub use light::PointLight;
 pub use load::{Loaded, SolveOptions, load, load_in, load_unlit};
 pub use photometric::Units;
 pub use thermal::{Thermal, ThermalScene, load_thermal};
@@ -51,6 +54,8 @@ pub struct Scene<V> {
     pub name: String,
     /// The surfaces, in the order of the file.
     pub surfaces: Vec<Surface<V>>,
+    /// Lights that are points, beside the surfaces that emit.
+    pub lights: Vec<PointLight<V>>,
     /// Where the file says that the scene is looked at from.
     pub camera: Option<Camera>,
 }

@@ -59,8 +59,13 @@ impl Loaded {
             emission: grey(surface.emission),
             polygons: surface.polygons.clone(),
         };
-        let Scene { name, surfaces, camera } = &self.scene;
-        Scene { name: name.clone(), surfaces: surfaces.iter().map(surface).collect(), camera: *camera }
+        let Scene { name, surfaces, lights, camera } = &self.scene;
+        Scene {
+            name: name.clone(),
+            surfaces: surfaces.iter().map(surface).collect(),
+            lights: lights.iter().map(|light| light.map(grey)).collect(),
+            camera: *camera,
+        }
     }
 }
 

@@ -49,6 +49,7 @@ pub fn scene<V: Value>(groups: impl IntoIterator<Item = Vec<Polygon>>, reflectan
     Scene {
         name: "test".into(),
         surfaces: groups.into_iter().enumerate().map(surface).collect(),
+        lights: Vec::new(),
         camera: None,
     }
 }

@@ -156,7 +156,7 @@ impl<'a> Reader<'a> {
         }
         let name = entry.name.unwrap_or_else(|| super::load::file_name(self.source.file));
         let camera = entry.camera.map(|camera| self.source.camera(&camera, metres)).transpose()?;
-        let scene = Scene { name, surfaces: shapes, camera };
+        let scene = Scene { name, surfaces: shapes, lights: Vec::new(), camera };
         let solve =
             SolveOptions { patch_size: entry.solve.patch_size.map(|size| size * metres), ..entry.solve };
         let (bands, surroundings) = (self.bands.clone(), self.surroundings);
