@@ -232,3 +232,18 @@ fn a_point_light_in_a_cube_is_reflected_as_geometry_says() {
         assert_eq!(faces.len(), 6);
     });
 }
+
+#[test]
+fn where_nothing_is_reflected_one_mesh_will_do() {
+    let mut black = room(1.0);
+    black.surfaces.iter_mut().for_each(|surface| surface.reflectance = 0.0);
+    let faces = black.polygons();
+    let domain = Domain::new(&black, &faces);
+    let mut rounds = 0;
+    let field = solve(&domain, &request(0.001), |_| {
+        rounds += 1;
+        true
+    });
+    assert_eq!((rounds, field.bound().total()), (1, 0.0));
+    assert!(field.irradiance(0, p(0.4, 0.4, 0.0)) > 0.0);
+}

@@ -20,8 +20,8 @@ pub struct Field<'a, V> {
     /// The mean of the reflected radiosity û − E, and how far it is from that mean.
     pub(super) radiosity: Vec<V>,
     pub(super) variation: Vec<f64>,
-    /// The square of the residual in the middle of each patch.
-    pub(super) residuals: Vec<f64>,
+    /// The residual E + A û − û in the middle of each patch, in W/m².
+    pub(super) residuals: Vec<V>,
     /// Patches on which H is not smooth, and is found at x itself.
     pub(super) rough: Vec<bool>,
     /// The irradiance that a link may be wrong by, in W/m², and how many links there are.

@@ -37,7 +37,7 @@ pub(super) fn marked<V: Value>(field: &Field<'_, V>, request: &Request) -> Vec<u
         let node = field.tree.node(patch);
         let mean = field.radiosity[patch as usize];
         let spread: f64 = node.parts.clone().map(|k| square(field.radiosity[k as usize] - mean)).sum();
-        node.area * (field.residuals[patch as usize] + SOURCE * spread / 4.0)
+        node.area * (square(field.residuals[patch as usize]) + SOURCE * spread / 4.0)
     };
     let mut patches: Vec<(f64, u32)> = field.tree.patches().map(|patch| (error(patch), patch)).collect();
     patches.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
@@ -70,10 +70,10 @@ pub(super) fn refined<V: Value>(field: Field<'_, V>, marked: &[u32], accuracy: f
     Mesh { variation: variation_of(&tree, &values), tree, tolerance }
 }
 
-/// The square of the residual in the middle of each patch; 0 for other nodes.
-pub(super) fn residuals<V: Value>(field: &Field<'_, V>) -> Vec<f64> {
+/// The residual in the middle of each patch; 0 for other nodes.
+pub(super) fn residuals<V: Value>(field: &Field<'_, V>) -> Vec<V> {
     let of_node = |view: &mut _, node: u32| {
-        if field.tree.is_patch(node) { square(field.residual(node, view)) } else { 0.0 }
+        if field.tree.is_patch(node) { field.residual(node, view) } else { V::splat(0.0) }
     };
     (0..field.tree.nodes.len() as u32).into_par_iter().map_init(Default::default, of_node).collect()
 }
@@ -82,7 +82,7 @@ pub(super) fn residuals<V: Value>(field: &Field<'_, V>) -> Vec<f64> {
 pub(super) fn rough<V: Value>(field: &Field<'_, V>, accuracy: f64) -> Vec<bool> {
     let tolerance = (ROUGH * accuracy * field.scale()).powi(2);
     let is_rough = |node: u32| {
-        field.residuals[node as usize] > tolerance || steps(field, node).any(|step| step > tolerance)
+        square(field.residuals[node as usize]) > tolerance || steps(field, node).any(|step| step > tolerance)
     };
     let nodes = 0..field.tree.nodes.len() as u32;
     nodes.into_par_iter().map(|node| field.tree.is_patch(node) && is_rough(node)).collect()

@@ -29,7 +29,7 @@ const FIRST: f64 = 0.6;
 const ITERATION: f64 = 0.01;
 
 /// Bounces that are followed: 10⁴ are the light between mirrors of .999.
-const SWEEPS: usize = 10_000;
+pub(super) const SWEEPS: usize = 10_000;
 
 impl Mesh {
     /// The first one.
@@ -49,7 +49,9 @@ impl Mesh {
         };
         let links: Vec<Vec<Link>> = cells.par_iter().map_init(Default::default, look).collect();
         let count = links.iter().map(Vec::len).sum();
-        let solved = solved(domain, Links { tree: &tree, cells: &cells, links }, accuracy);
+        let operator = Links { tree: &tree, cells: &cells, links };
+        let solved = solved(domain, &operator, accuracy);
+        let links = operator.links;
         let radiosity = means(&tree, &cells, &solved.radiosity);
         let mut field = Field {
             domain,
@@ -65,7 +67,8 @@ impl Mesh {
         };
         field.residuals = residuals(&field);
         field.rough = rough(&field, accuracy);
-        field.bound = error::bound(&field, &solved.report);
+        let operator = Links { tree: &field.tree, cells: &cells, links };
+        field.bound = error::bound(&field, &operator, &solved.report);
         field
     }
 }
@@ -78,8 +81,8 @@ struct Solved<V> {
     report: Report,
 }
 
-fn solved<V: Value>(domain: &Domain<'_, V>, operator: Links<'_>, accuracy: f64) -> Solved<V> {
-    let Links { tree, cells, .. } = operator;
+fn solved<V: Value>(domain: &Domain<'_, V>, operator: &Links<'_>, accuracy: f64) -> Solved<V> {
+    let Links { tree, cells, .. } = *operator;
     let reflectance: Vec<V> = cells.iter().map(|&cell| domain.reflectance(tree.node(cell).face)).collect();
     // E is the same all over a face, and its links have all of the face together: this is ∫ K E to the last digit.
     let emission: Vec<V> = tree.nodes.iter().map(|node| domain.emission(node.face)).collect();
@@ -91,7 +94,7 @@ fn solved<V: Value>(domain: &Domain<'_, V>, operator: Links<'_>, accuracy: f64) 
     let of_points: Vec<V> = of_points.collect();
     let lit = direct.iter().zip(&of_points).zip(&reflectance);
     let source: Vec<V> = lit.map(|((lamps, points), rho)| (*lamps + *points) * *rho).collect();
-    let system = System { source: &source, coefficient: &reflectance, operator: &operator };
+    let system = System { source: &source, coefficient: &reflectance, operator };
     let stop = Stop { residual: ITERATION * accuracy * max_norm(&source), sweeps: SWEEPS };
     let mut relaxation = SuccessiveApproximation::new(system);
     let report = relax(&mut relaxation, stop, |_, _, _| true);
