@@ -1,7 +1,5 @@
 //! Radiosity to an accuracy: what is known exactly, and whether the error is what it is said to be.
 
-#![expect(clippy::unwrap_used, reason = "a test may panic")]
-
 mod common;
 
 use common::*;

@@ -124,7 +124,7 @@ impl<'a, V: Value> Domain<'a, V> {
     }
 
     /// The irradiance at a point of a face straight from the lights that are points, in W/m².
-    pub(super) fn from_points(&self, face: u32, position: DVec3) -> V {
+    pub(super) fn sent_by_points(&self, face: u32, position: DVec3) -> V {
         let at = SurfacePoint { position, normal: self.faces[face as usize].normal() };
         let visibility = self.visibility.as_ref();
         visibility.map_or(V::splat(0.0), |visibility| lights::irradiance(&self.points, visibility, &at))
@@ -133,7 +133,7 @@ impl<'a, V: Value> Domain<'a, V> {
     /// The irradiance that arrives at a point of a face straight from the lamps and from points, in W/m².
     pub(super) fn direct(&self, face: u32, point: DVec3, view: &mut View) -> V {
         let outlook = self.outlook(face);
-        let mut sum = self.from_points(face, point);
+        let mut sum = self.sent_by_points(face, point);
         view.go(outlook, point);
         for &lamp in &self.lamps {
             let Ok(k) = outlook.seen.binary_search_by_key(&lamp, |(face, _)| *face) else { continue };

@@ -49,7 +49,7 @@ pub(super) fn bound<V: Value>(field: &Field<'_, V>, operator: &Links<'_>, report
     let look = |view: &mut _, (face, point): (u32, DVec3)| {
         let rho = field.domain.reflectance(face);
         let links = field.domain.links(&field.tree, Coarseness::CELLS, (face, point), view);
-        let direct = links.iter().fold(field.domain.from_points(face, point), |sum, link| {
+        let direct = links.iter().fold(field.domain.sent_by_points(face, point), |sum, link| {
             sum + field.domain.emission(field.tree.node(link.node).face) * f64::from(link.factor)
         });
         let seen = gathered(&links, &field.radiosity);

@@ -122,7 +122,7 @@ impl<V: Value> Field<'_, V> {
     pub(super) fn gathered(&self, face: u32, point: DVec3, view: &mut View) -> V {
         let coarseness = Coarseness { variation: &self.variation, tolerance: self.tolerance };
         let links: Vec<Link> = self.domain.links(&self.tree, coarseness, (face, point), view);
-        let direct = links.iter().fold(self.domain.from_points(face, point), |sum, link| {
+        let direct = links.iter().fold(self.domain.sent_by_points(face, point), |sum, link| {
             sum + self.domain.emission(self.tree.node(link.node).face) * f64::from(link.factor)
         });
         direct + gathered(&links, &self.radiosity)

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 pub(super) const NEW: usize = 12;
 
 /// Patches are cut that have this part of the whole (Dörfler's marking): fewer are more rounds, more are finer than needed.
-const BULK: f64 = 0.8;
+const BULK: f64 = 0.95;
 
 /// Light that varies over a patch is seen wrongly by what is near, even where the field is right on it.
 const SOURCE: f64 = 0.005;

@@ -89,7 +89,7 @@ fn solved<V: Value>(domain: &Domain<'_, V>, operator: &Links<'_>, accuracy: f64)
     let direct: Vec<V> = operator.links.iter().map(|links| gathered(links, &emission)).collect();
     let of_points = cells.par_iter().map(|&cell| {
         let node = tree.node(cell);
-        domain.from_points(node.face, domain.node_of(node))
+        domain.sent_by_points(node.face, domain.node_of(node))
     });
     let of_points: Vec<V> = of_points.collect();
     let lit = direct.iter().zip(&of_points).zip(&reflectance);

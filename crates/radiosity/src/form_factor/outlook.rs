@@ -44,12 +44,15 @@ pub(crate) struct Outlook {
 #[derive(Debug)]
 enum Hider {
     Body(Solid),
-    Side {
-        outline: Outline,
-        plane: Plane,
-        /// Whether it hides from its front alone: it is of a body, whose other faces hide the rest.
-        one_sided: bool,
-    },
+    Side(Box<Side>),
+}
+
+#[derive(Debug)]
+struct Side {
+    outline: Outline,
+    plane: Plane,
+    /// Whether it hides from its front alone: it is of a body, whose other faces hide the rest.
+    one_sided: bool,
 }
 
 /// Which body, or which polygon, and the face in front of whose plane it hides, where it reaches through that.
@@ -95,7 +98,7 @@ impl<'a> Outlooks<'a> {
         }
         let stands = |hider: &Hider| match hider {
             Hider::Body(solid) => solid.vertices.iter().any(|v| outer.height_of(*v) <= self.touch),
-            Hider::Side { .. } => false,
+            Hider::Side(_) => false,
         };
         let all = outlook.hiders.iter().zip(0..);
         outlook.standing = all.filter(|(hider, _)| stands(hider)).map(|(_, k)| k).collect();
@@ -133,7 +136,7 @@ impl<'a> Outlooks<'a> {
         }
         let plane = Plane { normal: polygon.normal(), offset: polygon.normal().dot(polygon.vertices()[0]) };
         let one_sided = body.is_some_and(|body| self.blockers.is_clear_of(face, outer, body));
-        Hider::Side { outline, plane, one_sided }
+        Hider::Side(Box::new(Side { outline, plane, one_sided }))
     }
 }
 
@@ -150,7 +153,7 @@ impl Outlook {
     pub fn is_buried(&self, x: DVec3) -> bool {
         self.standing.iter().any(|&k| match &self.hiders[k as usize] {
             Hider::Body(solid) => solid.in_front(x, self.touch) == 0,
-            Hider::Side { .. } => false,
+            Hider::Side(_) => false,
         })
     }
 }
@@ -319,7 +322,7 @@ const NOTHING: DVec3 = DVec3::ZERO;
 
 impl Hider {
     fn is_empty(&self) -> bool {
-        matches!(self, Self::Side { outline, .. } if outline.is_empty())
+        matches!(self, Self::Side(side) if side.outline.is_empty())
     }
 
     /// The inward normals of the planes through x and the edges, seen from x, of what it hides.
@@ -331,7 +334,8 @@ impl Hider {
                     solid.ridges.iter().filter_map(|ridge| ridge.on_outline(|k| in_front >> k & 1 == 1));
                 planes.extend(outline.map(|[from, to]| (to - x).cross(from - x)));
             }
-            Self::Side { outline, plane, one_sided } => {
+            Self::Side(side) => {
+                let Side { outline, plane, one_sided } = &**side;
                 let height = plane.height_of(x);
                 if height.abs() <= touch || (*one_sided && height < 0.0) {
                     planes.push(NOTHING);

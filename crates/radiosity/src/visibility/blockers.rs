@@ -35,7 +35,7 @@ impl Blockers {
     /// From the faces of a scene.
     pub fn new(faces: &[Polygon]) -> Self {
         let mesh = Mesh::new(faces);
-        let (body_of_face, bodies, caps) = mesh.bodies();
+        let Closed { body_of_face, boxes: bodies, caps } = mesh.bodies();
         let mut blockers = Self {
             polygons: Vec::new(),
             body: Vec::new(),
@@ -141,6 +141,14 @@ fn cyclic(outline: &[u32]) -> impl Iterator<Item = Edge> {
 /// Every side of a body against every vertex takes time; of one with more sides than that it is not known.
 const MOST_EXAMINED: usize = 2000;
 
+/// What is known of bodies that are closed.
+struct Closed {
+    body_of_face: Vec<Option<u32>>,
+    boxes: Vec<[DVec3; 2]>,
+    /// The outline of what closes an open one.
+    caps: Vec<Option<Vec<u32>>>,
+}
+
 /// Faces that know which edges they share.
 struct Mesh<'a> {
     faces: &'a [Polygon],
@@ -222,7 +230,7 @@ impl<'a> Mesh<'a> {
     /// The body that each face is of, if it is of a closed one, the boxes around the bodies, and what closes them.
     ///
     /// Closed is also what stands with its open end on a plane that has the whole scene on one side: nothing looks in there.
-    fn bodies(&self) -> (Vec<Option<u32>>, Vec<[DVec3; 2]>, Vec<Option<Vec<u32>>>) {
+    fn bodies(&self) -> Closed {
         let (component, count) = self.components(|_, _| true);
         let mut open = vec![HashMap::new(); count as usize];
         for (corners, c) in self.corners.iter().zip(&component) {
@@ -238,7 +246,7 @@ impl<'a> Mesh<'a> {
             face.vertices().iter().for_each(|v| (*low, *high) = (low.min(*v), high.max(*v)));
         }
         let body_of_face = component.iter().map(|&c| closed[c as usize].then_some(c)).collect();
-        (body_of_face, boxes, caps)
+        Closed { body_of_face, boxes, caps }
     }
 
     /// The convex outline that these edges make on a plane with the whole scene behind it.
