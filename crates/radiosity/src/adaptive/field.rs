@@ -24,8 +24,11 @@ pub struct Field<'a, V> {
     pub(super) residuals: Vec<V>,
     /// Patches on which H is not smooth, and is found at x itself.
     pub(super) rough: Vec<bool>,
-    /// The irradiance that a link may be wrong by, in W/m², and how many links there are.
+    /// The irradiance that a link may be wrong by, in W/m².
     pub(super) tolerance: f64,
+    /// What was asked for.
+    pub(super) accuracy: f64,
+    /// How many links the cells have.
     pub(super) links: usize,
     pub(super) bound: Bound,
 }
@@ -120,7 +123,7 @@ impl<V: Value> Field<'_, V> {
 
     /// D + H at the point itself.
     pub(super) fn gathered(&self, face: u32, point: DVec3, view: &mut View) -> V {
-        let coarseness = Coarseness { variation: &self.variation, tolerance: self.tolerance };
+        let coarseness = Coarseness::new(&self.variation, self.tolerance, self.accuracy);
         let links: Vec<Link> = self.domain.links(&self.tree, coarseness, (face, point), view);
         let direct = links.iter().fold(self.domain.sent_by_points(face, point), |sum, link| {
             sum + self.domain.emission(self.tree.node(link.node).face) * f64::from(link.factor)

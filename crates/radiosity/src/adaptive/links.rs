@@ -1,7 +1,8 @@
 //! (F u)_i = Σ_links F(x_i, P) · mean of u over P: collocation at the centres of cells, in which what is far away, or much
 //! alike, is one part.
 
-use super::tree::Tree;
+use super::tree::{Node, Tree};
+use crate::form_factor::exchange::FromAfar;
 use crate::form_factor::outlook::{Outlook, Seen, View};
 use fredholm::operator::{Matrix, Operator};
 use fredholm::value::Value;
@@ -24,12 +25,23 @@ pub(super) struct Coarseness<'a> {
     pub variation: &'a [f64],
     /// The irradiance that a link may be wrong by, in W/m².
     pub tolerance: f64,
+    /// The diameter over the distance up to which a part that nothing hides is taken by some points of it.
+    pub nearness: f64,
 }
 
-impl Coarseness<'_> {
-    /// Down to the cells.
-    pub const CELLS: Self = Self { variation: &[], tolerance: 0.0 };
+impl<'a> Coarseness<'a> {
+    /// Down to the cells, and exactly.
+    pub const CELLS: Self = Self { variation: &[], tolerance: 0.0, nearness: 0.0 };
+
+    /// For links that may be wrong by `tolerance`, in W/m², in a field of some accuracy.
+    pub fn new(variation: &'a [f64], tolerance: f64, accuracy: f64) -> Self {
+        Self { variation, tolerance, nearness: FromAfar::nearness(NODES * accuracy) }
+    }
 }
+
+/// What the nodes that a part is taken by may be wrong by, as part of the accuracy. Seven nodes take an eighth of the time of
+/// Lambert's formula.
+const NODES: f64 = 0.01;
 
 /// The parts of the scene that a point of a face sees.
 pub(super) struct Descent<'a> {
@@ -60,7 +72,11 @@ impl Descent<'_> {
     fn descend(&self, node: u32, hiders: &Range<usize>, view: &mut View, links: &mut Vec<Link>) {
         let whole = self.tree.node(node);
         if self.tree.is_cell(node) || self.is_one(node) {
-            let factor = view.factor(&whole.polygon, hiders.clone());
+            let factor = if hiders.is_empty() && self.is_far(whole) {
+                whole.from_afar.factor(self.point, self.normal)
+            } else {
+                view.factor(&whole.polygon, hiders.clone())
+            };
             if factor > 0.0 {
                 links.push(Link { node, factor: factor as f32 });
             }
@@ -72,6 +88,12 @@ impl Descent<'_> {
                 view.leave(&kept);
             }
         }
+    }
+
+    /// Whether a part is so far away, and all of it so high above the horizon, that some points of it will do.
+    fn is_far(&self, part: &Node) -> bool {
+        let away = part.polygon.centroid() - self.point;
+        part.diameter < self.coarseness.nearness * away.length() && away.dot(self.normal) > part.diameter
     }
 
     /// Whether what is on it may be taken for its mean.

@@ -42,7 +42,7 @@ impl Mesh {
     pub fn solved<'a, V: Value>(self, domain: &'a Domain<'a, V>, accuracy: f64) -> Field<'a, V> {
         let Self { tree, variation, tolerance } = self;
         let cells: Vec<u32> = tree.cells().collect();
-        let coarseness = Coarseness { variation: &variation, tolerance };
+        let coarseness = Coarseness::new(&variation, tolerance, accuracy);
         let look = |view: &mut _, cell: &u32| {
             let node = tree.node(*cell);
             domain.links(&tree, coarseness, (node.face, domain.node_of(node)), view)
@@ -62,6 +62,7 @@ impl Mesh {
             rough: Vec::new(),
             tree,
             tolerance,
+            accuracy,
             links: count,
             bound: error::Bound::default(),
         };

@@ -1,5 +1,6 @@
 //! The mesh of the domain as a forest: faces, cut into quarters where the solution asks for it.
 
+use crate::form_factor::exchange::FromAfar;
 use crate::patches::inverse_bilinear;
 use crate::polygon::Polygon;
 use glam::{DVec2, DVec3};
@@ -11,6 +12,7 @@ pub(super) struct Node {
     pub polygon: Polygon,
     pub area: f64,
     pub diameter: f64,
+    pub from_afar: FromAfar,
     /// The face that it is a part of.
     pub face: u32,
     /// Its parts, none of a cell.
@@ -96,7 +98,14 @@ impl Tree {
 
 impl Node {
     fn new(polygon: Polygon, face: u32) -> Self {
-        Self { area: polygon.area(), diameter: polygon.diameter(), polygon, face, parts: 0..0 }
+        Self {
+            area: polygon.area(),
+            diameter: polygon.diameter(),
+            from_afar: FromAfar::new(&polygon),
+            polygon,
+            face,
+            parts: 0..0,
+        }
     }
 
     /// Where a point lies in it: (s, t) of the unit square, or the shares of the second and third corner.

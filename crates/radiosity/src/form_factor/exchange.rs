@@ -94,6 +94,40 @@ impl Unoccluded {
     }
 }
 
+/// A polygon as its seven nodes, for points that see it from afar.
+#[derive(Clone, Debug)]
+pub(crate) struct FromAfar {
+    nodes: Nodes<2>,
+    normal: DVec3,
+}
+
+impl FromAfar {
+    /// The nodes of a polygon.
+    pub fn new(polygon: &Polygon) -> Self {
+        Self { nodes: Nodes::seven(polygon), normal: polygon.normal() }
+    }
+
+    /// The form factor from a point x with normal n, all of the polygon being above its horizon and x in front.
+    pub fn factor(&self, x: DVec3, n: DVec3) -> f64 {
+        let mut sum = f64x4::ZERO;
+        for k in 0..2 {
+            let Nodes { x: xs, y: ys, z: zs, weight } = &self.nodes;
+            let (u, v, w) = (xs[k] - x.x, ys[k] - x.y, zs[k] - x.z);
+            let leaves = u * n.x + v * n.y + w * n.z;
+            let arrives = u * self.normal.x + v * self.normal.y + w * self.normal.z;
+            let square = u * u + v * v + w * w;
+            sum -= weight[k] * leaves * arrives / (square * square);
+        }
+        sum.reduce_add() / PI
+    }
+
+    /// The diameter over the distance of polygons whose factors from points have this error, relative to what they would be
+    /// head-on.
+    pub fn nearness(tolerance: f64) -> f64 {
+        (tolerance / SEVEN).powf(1.0 / 6.0)
+    }
+}
+
 /// The error of the product of 2 × 2 nodes is below FEW (diameter/distance)⁴ of the factor that the patches would have
 /// head-on, that of seven below SEVEN (diameter/distance)⁶, and that of 4 × 4 below MANY (diameter/distance)⁸: 1.5, 1.4 and
 /// 1.1 times the worst of the test's positions.
