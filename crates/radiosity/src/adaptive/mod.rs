@@ -6,8 +6,8 @@
 //!
 //! - F(x, P) is exact, for what hides P from x is clipped away; a shadow's edge needs no rays and, in the light that comes
 //!   straight from lamps, no mesh;
-//! - what is far away or much alike is seen as one ([`links`]), so that there are far fewer factors than pairs of cells;
-//! - cells are cut where the residual between them is large, and nowhere else ([`refine`]).
+//! - what is far away or much alike is seen as one (`links`), so that there are far fewer factors than pairs of cells;
+//! - cells are cut where the residual between them is large, and nowhere else (`refine`).
 //!
 //! ```
 //! use radiosity::adaptive::{Domain, Request, solve};

@@ -19,8 +19,10 @@ const SOURCE: f64 = 0.005;
 /// The part of the accuracy that links may take.
 const LINKS: f64 = 0.3;
 
-/// Of the accuracy: a patch that is rougher than this is not interpolated on.
+/// A patch is not interpolated on where that is wrong by so many times the accuracy: of the light on it, for eyes look for
+/// steps in the dark too, but not of less than the second part of the mean.
 const ROUGH: f64 = 3.0;
+const DARK: f64 = 0.05;
 
 /// The square of the mean over the channels, up to their number.
 pub(super) fn square<V: Value>(value: V) -> f64 {
@@ -80,8 +82,10 @@ pub(super) fn residuals<V: Value>(field: &Field<'_, V>) -> Vec<V> {
 
 /// Of each node, whether it is a patch between whose cells the light is not smooth: where something stands on it, say.
 pub(super) fn rough<V: Value>(field: &Field<'_, V>, accuracy: f64) -> Vec<bool> {
-    let tolerance = (ROUGH * accuracy * field.scale()).powi(2);
+    let scale = field.scale();
     let is_rough = |node: u32| {
+        let light = square(field.radiosity[node as usize]).sqrt().clamp(DARK * scale, scale);
+        let tolerance = (ROUGH * accuracy * light).powi(2);
         square(field.residuals[node as usize]) > tolerance || steps(field, node).any(|step| step > tolerance)
     };
     let nodes = 0..field.tree.nodes.len() as u32;
