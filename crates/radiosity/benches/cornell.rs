@@ -25,7 +25,7 @@ fn main() {
     scene.surfaces[light].reflectance = Spectrum([0.0; 3]);
     let (faces, texels) = (scene.polygons(), texels(&scene));
     let solved = |accuracy: f64| {
-        let domain = Domain::new(&scene, &faces);
+        let domain = Domain::new(&scene, &faces).unwrap();
         let start = Instant::now();
         let field = solve(&domain, &Request { accuracy, ..Request::default() }, |_| true);
         let seconds = start.elapsed().as_secs_f64();

@@ -1,5 +1,7 @@
 //! Radiosity to an accuracy: what is known exactly, and whether the error is what it is said to be.
 
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
 mod common;
 
 use common::*;
@@ -22,7 +24,7 @@ fn solved<V: Value, R>(
     look: impl FnOnce(&Field<'_, V>, &[Polygon]) -> R,
 ) -> R {
     let faces = scene.polygons();
-    let domain = Domain::new(scene, &faces);
+    let domain = Domain::new(scene, &faces).unwrap();
     look(&solve(&domain, &request(accuracy), |_| true), &faces)
 }
 
@@ -199,7 +201,7 @@ fn parts_are_the_faces_and_their_means_those_of_the_field() {
 fn patience_ends_where_the_observer_says() {
     let scene = room(1.0);
     let faces = scene.polygons();
-    let domain = Domain::new(&scene, &faces);
+    let domain = Domain::new(&scene, &faces).unwrap();
     let mut rounds = 0;
     let field = solve(&domain, &request(1e-4), |_| {
         rounds += 1;
@@ -236,7 +238,7 @@ fn where_nothing_is_reflected_one_mesh_will_do() {
     let mut black = room(1.0);
     black.surfaces.iter_mut().for_each(|surface| surface.reflectance = 0.0);
     let faces = black.polygons();
-    let domain = Domain::new(&black, &faces);
+    let domain = Domain::new(&black, &faces).unwrap();
     let mut rounds = 0;
     let field = solve(&domain, &request(0.001), |_| {
         rounds += 1;
@@ -244,4 +246,33 @@ fn where_nothing_is_reflected_one_mesh_will_do() {
     });
     assert_eq!((rounds, field.bound().total()), (1, 0.0));
     assert!(field.irradiance(0, p(0.4, 0.4, 0.0)) > 0.0);
+}
+
+#[test]
+fn behind_many_triangles_rays_tell_what_is_in_sight() {
+    // A furnace with a ball of 224 faces: more than it is worth to clip by.
+    let ball = sphere(8).into_iter().map(|face| {
+        let v: Vec<DVec3> = face.vertices().iter().rev().map(|v| 0.5 * DVec3::ONE + 0.25 * *v).collect();
+        match *v.as_slice() {
+            [a, b, c, d] => Polygon::quadrilateral(a, b, c, d),
+            _ => Polygon::triangle(v[0], v[1], v[2]),
+        }
+    });
+    let halves = ball
+        .flat_map(|face| face.triangles().map(|[a, b, c]| Polygon::triangle(a, b, c)).collect::<Vec<_>>());
+    let mut scene = scene([walls(DVec3::ZERO, DVec3::ONE, false).to_vec(), halves.collect()], 0.5);
+    scene.surfaces.iter_mut().for_each(|surface| surface.emission = 1.0);
+    solved(&scene, 0.05, |field, faces| {
+        let of_walls = |(face, _): &(u32, DVec3)| *face < 6;
+        let light = field.light(points(faces).into_iter().filter(of_walls));
+        let errors: Vec<f64> = light.iter().map(|[b, _]| b / 2.0 - 1.0).collect();
+        assert!(root_mean_square(errors.iter().copied()) < 0.01, "{errors:?}");
+    });
+}
+
+#[test]
+fn more_faces_than_pairs_can_be_looked_at_are_refused() {
+    let faces = vec![parallelogram(DVec3::ZERO, DVec3::X, DVec3::Y); 6001];
+    let error = Domain::new(&scene([faces.clone()], 0.5), &faces).unwrap_err();
+    assert!(error.to_string().contains("6001 faces"), "{error}");
 }

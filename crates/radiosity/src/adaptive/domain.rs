@@ -7,7 +7,6 @@ use crate::kernel::SurfacePoint;
 use crate::lights;
 use crate::polygon::Polygon;
 use crate::scene::{PointLight, Scene, Surface};
-use crate::visibility::Visibility;
 use fredholm::value::Value;
 use glam::DVec3;
 use std::sync::OnceLock;
@@ -20,12 +19,21 @@ pub struct Domain<'a, V> {
     emission: Vec<V>,
     /// The faces that emit; none where they are too many to be looked at one by one.
     lamps: Vec<u32>,
-    /// Lights that are points, and what hides them.
+    /// Lights that are points.
     points: Vec<PointLight<V>>,
-    visibility: Option<Visibility>,
     all: Outlooks<'a>,
     outlooks: Vec<OnceLock<Outlook>>,
 }
+
+/// More faces than can be looked at in pairs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "{0} faces: what is between any two of them is looked at, for {MOST_FACES} at most; ask for patches in place of an accuracy, or simplify the mesh"
+)]
+pub struct TooManyFaces(pub usize);
+
+/// For so many faces what they see of each other takes some 2 GB.
+const MOST_FACES: usize = 6000;
 
 /// How far beside the centre of a cell, on the way to a corner.
 const BESIDE: f64 = 0.9;
@@ -38,23 +46,25 @@ const MOST_LAMPS: usize = 64;
 
 impl<'a, V: Value> Domain<'a, V> {
     /// `faces` are the polygons of the scene, in its order.
-    pub fn new(scene: &Scene<V>, faces: &'a [Polygon]) -> Self {
+    pub fn new(scene: &Scene<V>, faces: &'a [Polygon]) -> Result<Self, TooManyFaces> {
+        if faces.len() > MOST_FACES {
+            return Err(TooManyFaces(faces.len()));
+        }
         let of_faces = |value: fn(&Surface<V>) -> V| -> Vec<V> {
             scene.surfaces.iter().flat_map(|s| s.polygons.iter().map(move |_| value(s))).collect()
         };
         let emission = of_faces(|s| s.emission);
         let is_lamp = |k: &u32| emission[*k as usize] != V::splat(0.0);
         let lamps: Vec<u32> = (0..faces.len() as u32).filter(is_lamp).take(MOST_LAMPS + 1).collect();
-        Self {
+        Ok(Self {
             faces,
             reflectance: of_faces(|s| s.reflectance),
             lamps: if lamps.len() <= MOST_LAMPS { lamps } else { Vec::new() },
             emission,
             points: scene.lights.clone(),
-            visibility: (!scene.lights.is_empty()).then(|| Visibility::new(faces)),
             all: Outlooks::new(faces),
             outlooks: faces.iter().map(|_| OnceLock::new()).collect(),
-        }
+        })
     }
 
     pub(super) fn faces(&self) -> &'a [Polygon] {
@@ -126,8 +136,7 @@ impl<'a, V: Value> Domain<'a, V> {
     /// The irradiance at a point of a face straight from the lights that are points, in W/m².
     pub(super) fn sent_by_points(&self, face: u32, position: DVec3) -> V {
         let at = SurfacePoint { position, normal: self.faces[face as usize].normal() };
-        let visibility = self.visibility.as_ref();
-        visibility.map_or(V::splat(0.0), |visibility| lights::irradiance(&self.points, visibility, &at))
+        lights::irradiance(&self.points, self.all.rays(), &at)
     }
 
     /// The irradiance that arrives at a point of a face straight from the lamps and from points, in W/m².
@@ -139,7 +148,7 @@ impl<'a, V: Value> Domain<'a, V> {
             let Ok(k) = outlook.seen.binary_search_by_key(&lamp, |(face, _)| *face) else { continue };
             let polygon = &self.faces[lamp as usize];
             if let Seen::Behind(kept) = view.enter(polygon, &outlook.seen[k].1) {
-                sum += self.emission[lamp as usize] * view.factor(polygon, kept.clone());
+                sum += self.emission[lamp as usize] * view.factor(outlook, polygon, &kept);
                 view.leave(&kept);
             }
         }

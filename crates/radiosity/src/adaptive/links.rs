@@ -3,13 +3,12 @@
 
 use super::tree::{Node, Tree};
 use crate::form_factor::exchange::FromAfar;
-use crate::form_factor::outlook::{Outlook, Seen, View};
+use crate::form_factor::outlook::{Kept, Outlook, Seen, View};
 use fredholm::operator::{Matrix, Operator};
 use fredholm::value::Value;
 use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::PI;
-use std::ops::Range;
 
 /// A part of the scene and how much of the light at a point comes from it.
 #[derive(Clone, Copy, Debug)]
@@ -69,13 +68,13 @@ impl Descent<'_> {
         links
     }
 
-    fn descend(&self, node: u32, hiders: &Range<usize>, view: &mut View, links: &mut Vec<Link>) {
+    fn descend(&self, node: u32, hiders: &Kept, view: &mut View, links: &mut Vec<Link>) {
         let whole = self.tree.node(node);
         if self.tree.is_cell(node) || self.is_one(node) {
             let factor = if hiders.is_empty() && self.is_far(whole) {
                 whole.from_afar.factor(self.point, self.normal)
             } else {
-                view.factor(&whole.polygon, hiders.clone())
+                view.factor(self.outlook, &whole.polygon, hiders)
             };
             if factor > 0.0 {
                 links.push(Link { node, factor: factor as f32 });
@@ -83,7 +82,7 @@ impl Descent<'_> {
             return;
         }
         for part in whole.parts.clone() {
-            if let Seen::Behind(kept) = view.enter_further(&self.tree.node(part).polygon, hiders.clone()) {
+            if let Seen::Behind(kept) = view.enter_further(&self.tree.node(part).polygon, hiders) {
                 self.descend(part, &kept, view, links);
                 view.leave(&kept);
             }

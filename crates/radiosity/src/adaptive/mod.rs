@@ -15,13 +15,14 @@
 //!
 //! let scene = cornell_box();
 //! let faces = scene.polygons();
-//! let domain = Domain::new(&scene, &faces);
+//! let domain = Domain::new(&scene, &faces)?;
 //! let field = solve(&domain, &Request { accuracy: 0.05, ..Request::default() }, |_| true);
 //! // In the mean square over all surfaces, of the light that they reflect:
 //! assert!(field.bound().total() <= 0.05);
 //! // It is a function: here is the middle of the first polygon, the floor.
 //! let [red, ..] = field.radiosity(0, faces[0].centroid()).0;
 //! assert!(red > 0.2 && red < 0.6);
+//! # Ok::<(), radiosity::adaptive::TooManyFaces>(())
 //! ```
 
 mod domain;
@@ -32,7 +33,7 @@ mod refine;
 mod round;
 mod tree;
 
-pub use domain::Domain;
+pub use domain::{Domain, TooManyFaces};
 pub use error::Bound;
 pub use field::{Field, Part};
 

@@ -2,20 +2,23 @@
 //!
 //! Which polygons can hide something of another face is asked once for all points of a face. From a point each of them hides
 //! what is between the planes through the point and its edges; a part keeps those that reach into it, and a part of that
-//! part has no others to ask.
+//! part has no others to ask. Where more hide than that is worth, rays tell which share of a part is in sight.
 
 use super::exchange::may_see;
 use super::lambert::point_to_polygon;
 use super::outline::{Inside, Outline};
 use super::pairs::screens;
+use crate::kernel::{SurfacePoint, unoccluded};
 use crate::polygon::Polygon;
-use crate::visibility::End;
+use crate::reconstruct::{Rotation, lattice};
 use crate::visibility::blockers::Blockers;
 use crate::visibility::screens::Screens;
 use crate::visibility::solid::{Plane, Solid};
+use crate::visibility::{End, Visibility};
 use glam::DVec3;
 use std::collections::HashMap;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// The faces of a scene, and what may be between them.
 #[derive(Debug)]
@@ -26,6 +29,7 @@ pub(crate) struct Outlooks<'a> {
     ends: Vec<End>,
     /// How far from a plane counts as on it, in metres.
     touch: f64,
+    rays: Arc<Visibility>,
 }
 
 /// What the points of a face see of the others.
@@ -33,12 +37,24 @@ pub(crate) struct Outlooks<'a> {
 pub(crate) struct Outlook {
     normal: DVec3,
     /// The faces not all hidden, in their order, with what may hide some of them, in `hiders`.
-    pub seen: Vec<(u32, Vec<u32>)>,
+    pub seen: Vec<(u32, Hiders)>,
+    rays: Arc<Visibility>,
     hiders: Vec<Hider>,
     /// The bodies among them that stand on the face.
     standing: Vec<u32>,
     touch: f64,
 }
+
+/// What may hide some of a face.
+#[derive(Debug)]
+pub(crate) enum Hiders {
+    Few(Vec<u32>),
+    /// More than it is worth to clip by.
+    Many,
+}
+
+/// As many as it is worth to clip by: each asks 10 ns of every part, and the rays of a penumbra take some µs.
+const MANY: usize = 48;
 
 /// What hides: a convex body, or a convex polygon.
 #[derive(Debug)]
@@ -66,7 +82,13 @@ impl<'a> Outlooks<'a> {
         let vertices = || faces.iter().flat_map(|face| face.vertices());
         let low = vertices().fold(DVec3::INFINITY, |low, v| low.min(*v));
         let extent = vertices().fold(0.0, |extent: f64, v| extent.max((*v - low).max_element()));
-        Self { faces, blockers, screens, ends, touch: TOUCH * extent }
+        let rays = Arc::new(Visibility::new(faces));
+        Self { faces, blockers, screens, ends, touch: TOUCH * extent, rays }
+    }
+
+    /// What casts rays between the faces.
+    pub fn rays(&self) -> &Visibility {
+        &self.rays
     }
 
     /// What is seen from a face.
@@ -78,22 +100,26 @@ impl<'a> Outlooks<'a> {
             hiders: Vec::new(),
             standing: Vec::new(),
             touch: self.touch,
+            rays: self.rays.clone(),
         };
         let (mut known, mut found) = (HashMap::new(), Vec::new());
         for (other, target) in self.faces.iter().enumerate() {
             if other != face && may_see(outer, target) {
                 self.screens.between([&self.ends[face], &self.ends[other]], &mut found);
-                let hiders = found.iter().flat_map(|&id| self.names(id, other));
-                let mut hiders: Vec<u32> = hiders
-                    .map(|key| {
-                        *known.entry(key).or_insert_with(|| {
-                            outlook.hiders.push(self.hider(face, key));
-                            outlook.hiders.len() as u32 - 1
-                        })
+                let keys: Vec<Key> = found.iter().flat_map(|&id| self.names(id, other)).collect();
+                if keys.len() > MANY {
+                    outlook.seen.push((other as u32, Hiders::Many));
+                    continue;
+                }
+                let hiders = keys.into_iter().map(|key| {
+                    *known.entry(key).or_insert_with(|| {
+                        outlook.hiders.push(self.hider(face, key));
+                        outlook.hiders.len() as u32 - 1
                     })
-                    .collect();
+                });
+                let mut hiders: Vec<u32> = hiders.collect();
                 hiders.retain(|&k| !outlook.hiders[k as usize].is_empty());
-                outlook.seen.push((other as u32, hiders));
+                outlook.seen.push((other as u32, Hiders::Few(hiders)));
             }
         }
         let stands = |hider: &Hider| match hider {
@@ -180,7 +206,21 @@ struct Shadow(Range<usize>);
 pub(crate) enum Seen {
     Nothing,
     /// What these do not hide.
-    Behind(Range<usize>),
+    Behind(Kept),
+}
+
+/// Which hiders of a [`View`] reach into a part.
+#[derive(Clone, Debug)]
+pub(crate) enum Kept {
+    Few(Range<usize>),
+    Many,
+}
+
+impl Kept {
+    /// Whether nothing hides anything.
+    pub fn is_empty(&self) -> bool {
+        matches!(self, Self::Few(hiders) if hiders.is_empty())
+    }
 }
 
 impl View {
@@ -198,22 +238,24 @@ impl View {
     }
 
     /// Which of `hiders` reach into a part of a face that is seen from its front.
-    pub fn enter(&mut self, part: &Polygon, hiders: &[u32]) -> Seen {
+    pub fn enter(&mut self, part: &Polygon, hiders: &Hiders) -> Seen {
+        let Hiders::Few(hiders) = hiders else { return Seen::Behind(Kept::Many) };
         let start = self.kept.len();
         self.kept.extend_from_slice(hiders);
         self.filter(part, start)
     }
 
     /// Which of those that were kept do so.
-    pub fn enter_further(&mut self, part: &Polygon, hiders: Range<usize>) -> Seen {
+    pub fn enter_further(&mut self, part: &Polygon, hiders: &Kept) -> Seen {
+        let Kept::Few(hiders) = hiders else { return Seen::Behind(Kept::Many) };
         let start = self.kept.len();
-        self.kept.extend_from_within(hiders);
+        self.kept.extend_from_within(hiders.clone());
         self.filter(part, start)
     }
 
     fn filter(&mut self, part: &Polygon, start: usize) -> Seen {
         if self.kept.len() == start {
-            return Seen::Behind(start..start);
+            return Seen::Behind(Kept::Few(start..start));
         }
         let part = Outline::new(part.vertices()).seen_from(self.x);
         let mut end = start;
@@ -232,25 +274,50 @@ impl View {
             }
         }
         self.kept.truncate(end);
-        Seen::Behind(start..end)
+        Seen::Behind(Kept::Few(start..end))
     }
 
     /// Forgets them, and all that came in later.
-    pub fn leave(&mut self, hiders: &Range<usize>) {
-        self.kept.truncate(hiders.start);
+    pub fn leave(&mut self, hiders: &Kept) {
+        if let Kept::Few(hiders) = hiders {
+            self.kept.truncate(hiders.start);
+        }
     }
 
     /// The form factor from the point to what is not hidden of a part.
-    pub fn factor(&mut self, part: &Polygon, hiders: Range<usize>) -> f64 {
+    pub fn factor(&mut self, outlook: &Outlook, part: &Polygon, hiders: &Kept) -> f64 {
         let whole = point_to_polygon(self.x, self.normal, part);
         if whole == 0.0 || hiders.is_empty() {
             return whole;
         }
+        let Kept::Few(hiders) = hiders else { return whole * self.share_of_rays(&outlook.rays, part) };
         let mut target = Outline::new(part.vertices()).seen_from(self.x);
         let normal = self.normal;
         target.keep_above(|v| v.dot(normal));
-        let rest = self.rest(whole, target, hiders);
+        let rest = self.rest(whole, target, hiders.clone());
         if rest > ROUNDING * whole { rest } else { 0.0 }
+    }
+
+    /// The share of a part that is in sight: few rays where they agree, more where they do not.
+    fn share_of_rays(&self, visibility: &Visibility, part: &Polygon) -> f64 {
+        let x = SurfacePoint { position: self.x, normal: self.normal };
+        let rotation = Rotation::of(self.x.to_array().iter().fold(0, |bits, c| bits ^ c.to_bits() as usize));
+        let share = |rays: usize| {
+            let (mut all, mut arrived) = (0.0, 0.0);
+            for (s, t) in lattice(rays, rotation) {
+                let y = SurfacePoint { position: part.point(s, t), normal: part.normal() };
+                let weight = unoccluded(&x, &y) * part.density(s, t);
+                all += weight;
+                if weight > 0.0 && visibility.unoccluded(x.position, y.position) {
+                    arrived += weight;
+                }
+            }
+            if all > 0.0 { arrived / all } else { 0.0 }
+        };
+        match share(PROBES) {
+            certain @ (0.0 | 1.0) => certain,
+            _ => share(RAYS),
+        }
     }
 
     fn rest(&mut self, whole: f64, target: Outline, hiders: Range<usize>) -> f64 {
@@ -276,6 +343,10 @@ impl View {
         pieces.iter().map(|piece| piece.form_factor(*normal)).sum()
     }
 }
+
+/// Rays to a part, to see whether all or nothing of it is in sight, and where it is neither.
+const PROBES: usize = 8;
+const RAYS: usize = 48;
 
 /// So many planes add few enough vertices to a piece.
 const FEW: usize = 7;

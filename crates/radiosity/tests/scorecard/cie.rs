@@ -41,7 +41,7 @@ fn black(surfaces: &[(f64, &[Polygon])]) -> Scene<f64> {
 /// The irradiance at points of faces: what hides the sources is clipped away.
 fn at(scene: &Scene<f64>, points: &[(u32, DVec3)]) -> Vec<f64> {
     let faces = scene.polygons();
-    let domain = Domain::new(scene, &faces);
+    let domain = Domain::new(scene, &faces).unwrap();
     // Where nothing is reflected there is no error to look for, and one mesh will do.
     let field = solve(&domain, &Request::default(), |_| false);
     points.iter().map(|(face, point)| field.irradiance(*face, *point)).collect()

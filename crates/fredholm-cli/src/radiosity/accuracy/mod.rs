@@ -39,7 +39,7 @@ pub fn walk<V: Colour>(
     let Outputs { picture, patches: list, json, .. } = Outputs::prepare(args, &scene.name)?;
 
     let polygons = scene.polygons();
-    let domain = timed(&mut seconds.visibility, || Domain::new(scene, &polygons));
+    let domain = timed(&mut seconds.visibility, || Domain::new(scene, &polygons))?;
     let request = Request { accuracy, ..Request::default() };
     let mut rounds = Vec::new();
     let progress = Progress::new(accuracy);
