@@ -2,7 +2,8 @@
 
 use super::links::{Coarseness, Descent, Link};
 use super::tree::{Node, Tree};
-use crate::form_factor::outlook::{Outlook, Outlooks, Seen, View};
+use crate::form_factor::outlook::{Outlook, Outlooks};
+use crate::form_factor::view::{Seen, View};
 use crate::kernel::SurfacePoint;
 use crate::lights;
 use crate::polygon::Polygon;

@@ -5,7 +5,7 @@ use super::error::Bound;
 use super::links::{Coarseness, Link, gathered};
 use super::refine::square;
 use super::tree::Tree;
-use crate::form_factor::outlook::View;
+use crate::form_factor::view::View;
 use crate::polygon::Polygon;
 use fredholm::value::Value;
 use glam::DVec3;

@@ -3,7 +3,8 @@
 
 use super::tree::{Node, Tree};
 use crate::form_factor::exchange::FromAfar;
-use crate::form_factor::outlook::{Kept, Outlook, Seen, View};
+use crate::form_factor::outlook::Outlook;
+use crate::form_factor::view::{Kept, Seen, View};
 use fredholm::operator::{Matrix, Operator};
 use fredholm::value::Value;
 use glam::DVec3;

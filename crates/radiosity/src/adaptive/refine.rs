@@ -24,7 +24,7 @@ const LINKS: f64 = 0.3;
 const ROUGH: f64 = 3.0;
 const DARK: f64 = 0.05;
 
-/// The square of the mean over the channels, up to their number.
+/// The sum of the squares of the channels.
 pub(super) fn square<V: Value>(value: V) -> f64 {
     value.channels().iter().map(|c| c * c).sum()
 }

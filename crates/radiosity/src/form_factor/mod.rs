@@ -25,6 +25,7 @@ mod rules;
 pub(crate) mod sampled;
 mod shadow;
 mod sight;
+pub(crate) mod view;
 
 use crate::kernel::{Lambertian, SurfacePoint};
 use crate::patches::{Patches, Strip};
