@@ -100,19 +100,22 @@ impl Outline {
     /// The heights of the vertices over the plane through the origin with a normal; bits for those above, and below.
     #[inline(always)]
     fn sides(&self, plane: DVec3) -> (u32, u32) {
-        let four = |from: usize| {
+        self.bits(0.0, |from| {
             let lanes = |c: &[f64; ROOM]| f64x4::new([c[from], c[from + 1], c[from + 2], c[from + 3]]);
             lanes(&self.x) * plane.x + (lanes(&self.y) * plane.y + lanes(&self.z) * plane.z)
-        };
-        let bits = |from: usize| {
-            let h = four(from);
-            (h.simd_gt(f64x4::ZERO).to_bitmask() << from, h.simd_lt(f64x4::ZERO).to_bitmask() << from)
-        };
-        let (mut above, mut below) = bits(0);
-        for from in [4, 8] {
+        })
+    }
+
+    /// Bits for the vertices of more than a `limit` of height, and of less than minus that; `heights` are those of four.
+    #[inline(always)]
+    fn bits(&self, limit: f64, heights: impl Fn(usize) -> f64x4) -> (u32, u32) {
+        let limit = f64x4::splat(limit);
+        let (mut above, mut below) = (0, 0);
+        for from in [0, 4, 8] {
             if self.count > from {
-                let (more_above, more_below) = bits(from);
-                (above, below) = (above | more_above, below | more_below);
+                let h = heights(from);
+                above |= h.simd_gt(limit).to_bitmask() << from;
+                below |= h.simd_lt(-limit).to_bitmask() << from;
             }
         }
         let used = (1 << self.count) - 1;
@@ -137,23 +140,12 @@ impl Outline {
     /// Bits for the vertices that are more than `rounding` above the plane through a point with a normal, and below.
     #[inline(always)]
     pub fn sides_from(&self, point: DVec3, plane: DVec3, rounding: f64) -> (u32, u32) {
-        let bits = |from: usize| {
+        self.bits(rounding, |from| {
             let lanes =
                 |c: &[f64; ROOM], x: f64| f64x4::new([c[from], c[from + 1], c[from + 2], c[from + 3]]) - x;
             let (x, y, z) = (lanes(&self.x, point.x), lanes(&self.y, point.y), lanes(&self.z, point.z));
-            let h = x * plane.x + (y * plane.y + z * plane.z);
-            let limit = f64x4::splat(rounding);
-            (h.simd_gt(limit).to_bitmask() << from, h.simd_lt(-limit).to_bitmask() << from)
-        };
-        let (mut above, mut below) = bits(0);
-        for from in [4, 8] {
-            if self.count > from {
-                let (more_above, more_below) = bits(from);
-                (above, below) = (above | more_above, below | more_below);
-            }
-        }
-        let used = (1 << self.count) - 1;
-        (above & used, below & used)
+            x * plane.x + (y * plane.y + z * plane.z)
+        })
     }
 
     /// What planes through the origin, given by their normals, have above all of them; a part is made in `room`.
