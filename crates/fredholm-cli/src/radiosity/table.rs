@@ -55,19 +55,22 @@ fn lines(report: &Report) -> Vec<(&'static str, String)> {
     if report.point_lights > 0 {
         lines.insert(0, ("point lights", grouped(report.point_lights as u64)));
     }
-    if let Some(bytes) = report.peak_memory_bytes {
-        lines.push(("memory", format!("{} MB at most", grouped(bytes >> 20))));
-    }
-    if report.dark {
-        lines.push(("light", DARK.to_owned()));
-    }
-    lines.push(("time", time(&report.seconds)));
-    lines.push(("written", written(&report.files)));
+    lines.extend(last(report.peak_memory_bytes, report.dark, &report.seconds, &report.files));
     lines
 }
 
-/// What is said where no surface is lit.
-pub const DARK: &str = "NONE reaches any surface: do the faces of the lamps look the wrong way?";
+/// What every table of light ends with; a scene in which no surface is lit is told.
+pub fn last(
+    memory: Option<u64>,
+    dark: bool,
+    seconds: &Seconds,
+    files: &[PathBuf],
+) -> impl Iterator<Item = (&'static str, String)> {
+    let memory = memory.map(|bytes| ("memory", format!("{} MB at most", grouped(bytes >> 20))));
+    let light = "NONE reaches any surface: do the faces of the lamps look the wrong way?";
+    let light = dark.then(|| ("light", light.to_owned()));
+    memory.into_iter().chain(light).chain([("time", time(seconds)), ("written", written(files))])
+}
 
 fn space(report: &Report) -> String {
     let k = report.space.trim_start_matches('p');
@@ -132,7 +135,7 @@ fn short(number: f64) -> String {
 }
 
 /// The stages that took any time worth a word, and their sum.
-pub fn time(seconds: &Seconds) -> String {
+fn time(seconds: &Seconds) -> String {
     let stages = [
         ("load", seconds.load),
         ("patches", seconds.patches),
@@ -149,7 +152,7 @@ pub fn time(seconds: &Seconds) -> String {
 }
 
 /// The files, of which frames are many.
-pub fn written(files: &[PathBuf]) -> String {
+fn written(files: &[PathBuf]) -> String {
     let names: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
     match names.as_slice() {
         [] => "no file".to_owned(),

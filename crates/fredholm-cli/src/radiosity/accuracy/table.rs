@@ -1,7 +1,7 @@
 //! The numbers of a run to an accuracy as people read them.
 
 use super::report::Report;
-use crate::radiosity::table::{DARK, grouped, of_surfaces, time, written};
+use crate::radiosity::table::{grouped, last, of_surfaces};
 use crate::text;
 
 /// The table, a line per matter.
@@ -24,14 +24,7 @@ fn lines(report: &Report) -> Vec<(&'static str, String)> {
         ("iteration", percent(report.iteration_error)),
         ("mesh", mesh(report)),
     ];
-    if let Some(bytes) = report.peak_memory_bytes {
-        lines.push(("memory", format!("{} MB at most", grouped(bytes >> 20))));
-    }
-    if report.dark {
-        lines.push(("light", DARK.to_owned()));
-    }
-    lines.push(("time", time(&report.seconds)));
-    lines.push(("written", written(&report.files)));
+    lines.extend(last(report.peak_memory_bytes, report.dark, &report.seconds, &report.files));
     lines
 }
 
