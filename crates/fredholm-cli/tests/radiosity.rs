@@ -192,7 +192,7 @@ fn an_accuracy_is_a_whole_request() {
     let output = fredholm(&folder, &format!("radiosity --accuracy 4% {words}"));
     assert!(output.status.success(), "{}", text(&output.stderr));
     let table = text(&output.stdout);
-    for line in ["to an accuracy of 4 %", "of the mesh", "form factors", "iteration", "cells"] {
+    for line in ["to an accuracy of 4 %", "of the mesh", "form factors", "iteration", "patches of degree 2"] {
         assert!(table.contains(line), "no `{line}` in: {table}");
     }
     let output = fredholm(
@@ -211,7 +211,7 @@ fn an_accuracy_is_a_whole_request() {
         }
     }
     let rows = fs::read_to_string(folder.join("p.csv")).unwrap().lines().count();
-    assert_eq!(rows, 1 + number("cells") as usize / 4);
+    assert_eq!(rows, 1 + 16 * number("patches") as usize);
 }
 
 #[test]

@@ -34,19 +34,19 @@ fn main() {
         (light, field.bound().total(), field.size(), [seconds, start.elapsed().as_secs_f64()])
     };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-    let (reference, bound, [cells, _], _) = solved(accuracies[0]);
-    println!("reference: {cells} cells, error told {:.2} %", 100.0 * bound);
+    let (reference, bound, [patches, _], _) = solved(accuracies[0]);
+    println!("reference: {patches} patches, error told {:.2} %", 100.0 * bound);
     println!(
         "{:>8} {:>8} {:>9} {:>8} {:>8} {:>9} {:>9}",
-        "asked", "cells", "factors", "told", "error", "solve, s", "texels, s"
+        "asked", "patches", "factors", "told", "error", "solve, s", "texels, s"
     );
     for &accuracy in &accuracies[1..] {
         let mut runs: Vec<_> = (0..RUNS).map(|_| pool.install(|| solved(accuracy))).collect();
         runs.sort_by(|a, b| a.3[0].total_cmp(&b.3[0]));
-        let (light, bound, [cells, factors], [solving, looking]) = &runs[RUNS / 2];
+        let (light, bound, [patches, factors], [solving, looking]) = &runs[RUNS / 2];
         let [asked, told, error] =
             [accuracy, *bound, distance(light, &reference)].map(|part| format!("{:.2} %", 100.0 * part));
-        println!("{asked:>8} {cells:>8} {factors:>9} {told:>8} {error:>8} {solving:>9.3} {looking:>9.3}");
+        println!("{asked:>8} {patches:>8} {factors:>9} {told:>8} {error:>8} {solving:>9.3} {looking:>9.3}");
     }
 }
 

@@ -209,7 +209,7 @@ fn patience_ends_where_the_observer_says() {
     });
     assert_eq!(rounds, 2);
     assert!(field.bound().total() > 1e-4);
-    let few = solve(&domain, &Request { accuracy: 1e-4, most_cells: 1000 }, |_| true);
+    let few = solve(&domain, &Request { accuracy: 1e-4, most_patches: 40 }, |_| true);
     assert!(few.size()[0] <= 1000);
 }
 

@@ -1,6 +1,7 @@
 //! What does not change while the mesh is refined: faces, their materials, and what hides what.
 
-use super::links::{Coarseness, Descent, Link};
+use super::links::{Coarseness, Descent};
+use super::space::Space;
 use super::tree::{Node, Tree};
 use crate::form_factor::outlook::{Outlook, Outlooks};
 use crate::form_factor::view::{Seen, View};
@@ -10,6 +11,7 @@ use crate::polygon::Polygon;
 use crate::scene::{PointLight, Scene, Surface};
 use fredholm::value::Value;
 use glam::DVec3;
+use rayon::prelude::*;
 use std::sync::OnceLock;
 
 /// The faces of a scene, with ρ and E.
@@ -36,10 +38,7 @@ pub struct TooManyFaces(pub usize);
 /// For so many faces what they see of each other takes some 2 GB.
 const MOST_FACES: usize = 6000;
 
-/// How far beside the centre of a cell, on the way to a corner.
-const BESIDE: f64 = 0.9;
-
-/// Points across a cell in which it is asked whether something stands there.
+/// Points across a leaf in which it is asked whether something stands there.
 const LOOKS: usize = 8;
 
 /// Lamps are looked at from every point.
@@ -85,6 +84,15 @@ impl<'a, V: Value> Domain<'a, V> {
         !self.lamps.is_empty()
     }
 
+    /// ρ at the nodes of a space.
+    pub(super) fn reflectances(&self, tree: &Tree, space: &Space) -> Vec<V> {
+        let of_patch = |(k, &patch): (usize, &u32)| {
+            let rho = self.reflectance(tree.node(patch).face);
+            space.range(k).map(move |_| rho)
+        };
+        space.patches.iter().enumerate().flat_map(of_patch).collect()
+    }
+
     /// The longest side of the box around the faces, in metres.
     pub(super) fn extent(&self) -> f64 {
         let vertices = || self.faces.iter().flat_map(|face| face.vertices());
@@ -97,13 +105,9 @@ impl<'a, V: Value> Domain<'a, V> {
         self.outlooks[face as usize].get_or_init(|| self.all.from(face as usize))
     }
 
-    /// The point of a cell at which the equation is to hold: its centre, or where something stands on that a point beside it.
-    pub(super) fn node_of(&self, cell: &Node) -> DVec3 {
-        let outlook = self.outlook(cell.face);
-        let centre = cell.polygon.centroid();
-        let beside = cell.polygon.vertices().iter().map(|v| centre.lerp(*v, BESIDE));
-        let mut points = std::iter::once(centre).chain(beside);
-        points.find(|x| !outlook.is_buried(*x)).unwrap_or(centre)
+    /// Whether something stands on a face.
+    pub(super) fn is_stood_on(&self, face: u32) -> bool {
+        self.outlook(face).is_stood_on()
     }
 
     /// Whether a point of a face is under something that stands on it, where no light comes.
@@ -111,27 +115,53 @@ impl<'a, V: Value> Domain<'a, V> {
         self.outlook(face).is_buried(point)
     }
 
-    /// The part of a cell that is not under something.
-    pub(super) fn share_in_sight(&self, cell: &Node) -> f64 {
-        let outlook = self.outlook(cell.face);
-        if !outlook.is_stood_on() {
+    /// The part of a leaf that is not under something.
+    pub(super) fn share_in_sight(&self, leaf: &Node) -> f64 {
+        if !self.is_stood_on(leaf.face) {
             return 1.0;
         }
-        let place = |k: usize| (k as f64 + 0.5) / LOOKS as f64;
-        let points = (0..LOOKS * LOOKS).map(|k| cell.polygon.point(place(k % LOOKS), place(k / LOOKS)));
-        points.filter(|x| !outlook.is_buried(*x)).count() as f64 / (LOOKS * LOOKS) as f64
+        self.looked_at(leaf).filter(|x| !self.is_buried(leaf.face, *x)).count() as f64
+            / (LOOKS * LOOKS) as f64
     }
 
-    /// The parts of the tree that a point of a face sees, and their form factors.
-    pub(super) fn links(
-        &self,
-        tree: &Tree,
-        coarseness: Coarseness<'_>,
+    /// Points spread over a leaf.
+    fn looked_at<'b>(&self, leaf: &'b Node) -> impl Iterator<Item = DVec3> + 'b {
+        let place = |k: usize| (k as f64 + 0.5) / LOOKS as f64;
+        (0..LOOKS * LOOKS).map(move |k| leaf.polygon.point(place(k % LOOKS), place(k / LOOKS)))
+    }
+
+    /// The point of a leaf at which it is asked what comes straight from the lamps: its centre, or where something stands
+    /// on that a point beside it.
+    fn point_of(&self, leaf: &Node) -> DVec3 {
+        let centre = leaf.polygon.centroid();
+        if !self.is_buried(leaf.face, centre) {
+            return centre;
+        }
+        self.looked_at(leaf).find(|x| !self.is_buried(leaf.face, *x)).unwrap_or(centre)
+    }
+
+    /// The way to the parts of the tree that a point of a face sees, and their form factors.
+    pub(super) fn descent<'b>(
+        &'b self,
+        tree: &'b Tree,
+        coarseness: Coarseness<'b>,
         (face, point): (u32, DVec3),
-        view: &mut View,
-    ) -> Vec<Link> {
+    ) -> Descent<'b> {
         let normal = self.faces[face as usize].normal();
-        Descent { tree, outlook: self.outlook(face), coarseness, point, normal }.links(view)
+        Descent { tree, outlook: self.outlook(face), coarseness, point, normal }
+    }
+
+    /// D at the points of the leaves that are not among the first nodes, of which it is known already, in W/m².
+    pub(super) fn direct_at_leaves(&self, tree: &Tree, known: Vec<V>) -> Vec<V> {
+        let new = known.len() as u32..tree.nodes.len() as u32;
+        let at_leaf = |view: &mut View, node: u32| {
+            let of_leaf = |leaf: &Node| self.direct(leaf.face, self.point_of(leaf), view);
+            Some(tree.node(node)).filter(|_| tree.is_leaf(node)).map_or(V::splat(0.0), of_leaf)
+        };
+        let direct = new.into_par_iter().map_init(View::default, at_leaf);
+        let mut all = known;
+        all.par_extend(direct);
+        all
     }
 
     /// The irradiance at a point of a face straight from the lights that are points, in W/m².
@@ -146,9 +176,9 @@ impl<'a, V: Value> Domain<'a, V> {
         let mut sum = self.sent_by_points(face, point);
         view.go(outlook, point);
         for &lamp in &self.lamps {
-            let Ok(k) = outlook.seen.binary_search_by_key(&lamp, |(face, _)| *face) else { continue };
+            let Some(hiders) = outlook.hiders_of(lamp) else { continue };
             let polygon = &self.faces[lamp as usize];
-            if let Seen::Behind(kept) = view.enter(polygon, &outlook.seen[k].1) {
+            if let Seen::Behind(kept) = view.enter(polygon, hiders) {
                 sum += self.emission[lamp as usize] * view.factor(outlook, polygon, &kept);
                 view.leave(&kept);
             }

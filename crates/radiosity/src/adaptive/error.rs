@@ -1,17 +1,18 @@
 //! û − u = −(I − A)⁻¹ r with the residual r = f + A û − û of the continuous equation, in the mean square over all faces:
 //! ‖û − u‖ ≤ ‖r‖ + ‖(I − A)⁻¹ A r‖.
 //!
-//! ‖r‖ is looked at in points that no cell has for its centre, from which every cell is seen. (I − A)⁻¹ A carries to the cells
-//! what r is in the middle of patches, as if it were so all over them. What cells leave unseen of û within themselves is
-//! told by what becomes of ∫ K û when patches, four times as large, stand for their cells: a third of the difference, for
-//! the error falls with the area; to that, to form factors and to the iteration, ‖(I − A)⁻¹‖ = 1/(1 − λ) is applied, with
+//! ‖r‖ is looked at in points that are no nodes. (I − A)⁻¹ A carries to the nodes what r is in the middle of the quarters of
+//! patches, as if it were so all over them. What leaves do not tell of û within themselves is told by what becomes of ∫ K û
+//! when quarters of patches, four times as large, stand for their leaves: a third of the difference, for the error falls with
+//! the area. What links are wrong by is told by finer ones. To that, and to the iteration, ‖(I − A)⁻¹‖ = 1/(1 − λ) is applied, with
 //! the λ by which each sweep shrinks the residual: A is self-adjoint in the norm weighted by 1/ρ.
 
 use super::field::Field;
 use super::links::{Coarseness, Links, gathered};
 use super::refine::square;
 use super::round::SWEEPS;
-use fredholm::relax::{Relaxation, Report, Stop, SuccessiveApproximation, relax};
+use super::space::average;
+use fredholm::relax::{Relaxation, Stop, SuccessiveApproximation, relax};
 use fredholm::system::System;
 use fredholm::value::{Value, max_norm};
 use glam::DVec3;
@@ -21,7 +22,7 @@ use rayon::prelude::*;
 /// they reflect.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bound {
-    /// Of the mesh: what is between the cells, and within them.
+    /// Of the mesh: what is between the nodes, and within the leaves.
     pub discretisation: f64,
     /// Of the form factors: parts of the scene that are seen as one.
     pub form_factors: f64,
@@ -36,82 +37,88 @@ impl Bound {
     }
 }
 
+/// The part of their error that finer links have by which links are judged.
+const FINER: f64 = 0.1;
+
 /// Points in which the residual is looked at.
 const SAMPLES: usize = 96;
 
-/// The bound of a field, from its residual and from that of its cells' equations, of this operator.
-pub(super) fn bound<V: Value>(field: &Field<'_, V>, operator: &Links<'_>, report: &Report) -> Bound {
+/// The mean square of the residual in the checks of patches, relative to the light: less than the error, and known at once.
+pub(super) fn residual<V: Value>(field: &Field<'_, V>) -> f64 {
+    let patches = field.space.patches.iter().enumerate().filter(|(_, patch)| !field.rough[**patch as usize]);
+    let of_patch = |(k, patch): (usize, &u32)| field.tree.node(*patch).area * field.square_residual(k);
+    let area: f64 = field.domain.faces().iter().map(|face| face.area()).sum();
+    let scale = field.scale();
+    if scale > 0.0 { (patches.map(of_patch).sum::<f64>() / area).sqrt() / scale } else { 0.0 }
+}
+
+/// The bound of a field, from its residual and from that of its nodes' equations.
+pub(super) fn bound<V: Value>(field: &Field<'_, V>) -> Bound {
     let scale = field.scale();
     if scale == 0.0 {
         return Bound::default();
     }
-    let patches = of_patches(field);
+    let quarters = of_quarters(field);
+    let finer = Coarseness::new(&field.variation, FINER * field.tolerance, FINER * field.accuracy);
     let look = |view: &mut _, (face, point): (u32, DVec3)| {
-        let rho = field.domain.reflectance(face);
-        let links = field.domain.links(&field.tree, Coarseness::CELLS, (face, point), view);
-        let direct = links.iter().fold(field.domain.sent_by_points(face, point), |sum, link| {
-            sum + field.domain.emission(field.tree.node(link.node).face) * f64::from(link.factor)
-        });
-        let seen = gathered(&links, &field.radiosity);
+        if field.domain.is_buried(face, point) {
+            return [0.0; 3];
+        }
+        let links = field.domain.descent(&field.tree, finer, (face, point)).links(view);
+        let seen = gathered(&links, &field.sent);
         let coarse = field.gathered(face, point, view);
-        let unseen = square(rho * (seen - gathered(&links, &patches)));
-        let linked = square(rho * (seen + direct - coarse));
-        [square(rho * (coarse - field.irradiance_with(face, point, view))), linked, unseen]
+        let differences =
+            [coarse - field.smooth_at(face, point, view), seen - coarse, seen - gathered(&links, &quarters)];
+        differences.map(|difference| square(field.domain.reflectance(face) * difference))
     };
     let squares: Vec<[f64; 3]> = points(field).into_par_iter().map_init(Default::default, look).collect();
     let mean = |k: usize| (squares.iter().map(|s| s[k]).sum::<f64>() / squares.len() as f64).sqrt();
-    let inverse = 1.0 / (1.0 - contraction(report)) / scale;
+    let inverse = 1.0 / (1.0 - field.iteration.contraction) / scale;
     Bound {
-        discretisation: (mean(0) + carried(field, operator)) / scale + inverse * mean(2) / 3.0,
-        form_factors: inverse * mean(1),
-        iteration: inverse * report.residual,
+        discretisation: (mean(0) + carried(field)) / scale + inverse * mean(2) / 3.0,
+        form_factors: inverse * mean(1) / (1.0 - FINER),
+        iteration: inverse * field.iteration.residual,
     }
 }
 
-/// ‖(I − A)⁻¹ A r‖ for the r of the middle of patches. Rough ones have none: there û is f + A û at each point.
-fn carried<V: Value>(field: &Field<'_, V>, operator: &Links<'_>) -> f64 {
-    let tree = &field.tree;
+/// ‖(I − A)⁻¹ A r‖ for the r of the checks, each for its quarter. Rough patches have none: there û is f + A û at each point.
+fn carried<V: Value>(field: &Field<'_, V>) -> f64 {
+    let Field { tree, space, looks, .. } = field;
     let mut residual = vec![V::splat(0.0); tree.nodes.len()];
-    for patch in tree.patches().filter(|&patch| !field.rough[patch as usize]) {
-        tree.node(patch)
-            .parts
-            .clone()
-            .for_each(|cell| residual[cell as usize] = field.residuals[patch as usize]);
+    for (&patch, checks) in space.patches.iter().zip(&field.residuals) {
+        if !field.rough[patch as usize] {
+            for (quarter, r) in tree.node(patch).parts.clone().zip(checks) {
+                tree.node(quarter).parts.clone().for_each(|leaf| residual[leaf as usize] = *r);
+            }
+        }
     }
-    let source: Vec<V> = operator.cells.iter().map(|&cell| residual[cell as usize]).collect();
-    let faces = operator.cells.iter().map(|&cell| tree.node(cell).face);
-    let reflectance: Vec<V> = faces.map(|face| field.domain.reflectance(face)).collect();
-    let system = System { source: &source, coefficient: &reflectance, operator };
+    average(tree, &mut residual);
+    let operator = Links { tree, space, looks };
+    let reflectance = field.domain.reflectances(tree, space);
+    let source: Vec<V> =
+        operator.gathered(&residual).into_iter().zip(&reflectance).map(|(h, rho)| h * *rho).collect();
+    let system = System { source: &source, coefficient: &reflectance, operator: &operator };
     let mut relaxation = SuccessiveApproximation::new(system);
     let stop = Stop { residual: CARRIED * max_norm(&source), sweeps: SWEEPS };
     relax(&mut relaxation, stop, |_, _, _| true);
-    let carried = relaxation.solution().into_iter().zip(&source).map(|(e, r)| e - *r);
-    let of_cells = operator.cells.iter().zip(carried).map(|(&cell, e)| (tree.node(cell).area, square(e)));
-    let (sum, area) =
-        of_cells.fold((0.0, 0.0), |(sum, all), (area, square)| (sum + area * square, all + area));
+    let carried = space.means(tree, &relaxation.solution());
+    let of_leaf = |leaf: u32| [tree.node(leaf).area * square(carried[leaf as usize]), tree.node(leaf).area];
+    let [sum, area] = tree.leaves().map(of_leaf).fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
     (sum / area).sqrt()
 }
 
 /// The residual of that, as part of its largest source.
 const CARRIED: f64 = 0.01;
 
-/// The radiosity with that of patches in place of their cells'.
-fn of_patches<V: Value>(field: &Field<'_, V>) -> Vec<V> {
-    let mut values = field.radiosity.clone();
-    for patch in field.tree.patches() {
-        for part in field.tree.node(patch).parts.clone() {
-            values[part as usize] = field.radiosity[patch as usize];
+/// The radiosity with that of quarters of patches in place of their leaves'.
+fn of_quarters<V: Value>(field: &Field<'_, V>) -> Vec<V> {
+    let mut values = field.sent.clone();
+    for quarter in field.space.patches.iter().flat_map(|&patch| field.tree.node(patch).parts.clone()) {
+        for leaf in field.tree.node(quarter).parts.clone() {
+            values[leaf as usize] = field.sent[quarter as usize];
         }
     }
     values
-}
-
-/// By how much the last sweep made the residual smaller.
-fn contraction(report: &Report) -> f64 {
-    match report.residuals.as_slice() {
-        [.., before, last] if *before > 0.0 => (last / before).min(0.9999),
-        _ => 0.0,
-    }
 }
 
 /// Points spread evenly over all faces.

@@ -1,9 +1,11 @@
-//! û(x) = E + ρ (D(x) + H(x)): D straight from lamps, at x itself; H between the cells of a patch where it is smooth.
+//! û(x) = E + ρ (D(x) + H(x)): D straight from lamps, at x itself; H the polynomial on a patch, where it is smooth.
 
 use super::domain::Domain;
 use super::error::Bound;
-use super::links::{Coarseness, Link, gathered};
+use super::links::{Coarseness, Looks, gathered};
 use super::refine::square;
+use super::round::Iteration;
+use super::space::{CHECKS, Space};
 use super::tree::Tree;
 use crate::form_factor::view::View;
 use crate::polygon::Polygon;
@@ -15,28 +17,35 @@ use glam::DVec3;
 pub struct Field<'a, V> {
     pub(super) domain: &'a Domain<'a, V>,
     pub(super) tree: Tree,
-    /// The mean of H over each node, in W/m².
+    pub(super) space: Space,
+    /// H at the nodes of the space, and its mean over each node of the tree, in W/m².
+    pub(super) values: Vec<V>,
     pub(super) smooth: Vec<V>,
-    /// The mean of the reflected radiosity û − E, and how far it is from that mean.
+    /// D at the points of leaves, in W/m².
+    pub(super) direct: Vec<V>,
+    /// The mean of the reflected radiosity û − E, the same with the light of lamps that are too many to be looked at one by
+    /// one, and how far it is from its mean.
     pub(super) radiosity: Vec<V>,
+    pub(super) sent: Vec<V>,
     pub(super) variation: Vec<f64>,
-    /// The residual E + A û − û in the middle of each patch, in W/m².
-    pub(super) residuals: Vec<V>,
+    /// The residual E + A û − û in the checks of each patch, in W/m².
+    pub(super) residuals: Vec<[V; CHECKS]>,
     /// Patches on which H is not smooth, and is found at x itself.
     pub(super) rough: Vec<bool>,
     /// The irradiance that a link may be wrong by, in W/m².
     pub(super) tolerance: f64,
     /// What was asked for.
     pub(super) accuracy: f64,
-    /// How many links the cells have.
-    pub(super) links: usize,
+    /// What each patch sees.
+    pub(super) looks: Vec<Looks>,
+    pub(super) iteration: Iteration,
     pub(super) bound: Bound,
 }
 
-/// A patch of the mesh that the answer stands on.
+/// A leaf of the mesh that the answer stands on: a sixteenth of a patch.
 #[derive(Clone, Debug)]
 pub struct Part<V> {
-    /// The patch.
+    /// Where it is.
     pub polygon: Polygon,
     /// Which face it is a part of.
     pub face: u32,
@@ -72,39 +81,31 @@ impl<V: Value> Field<'_, V> {
         self.bound
     }
 
-    /// How many cells the mesh has, and how many links they have.
+    /// How many patches the mesh has, and how many form factors.
     pub fn size(&self) -> [usize; 2] {
-        [self.tree.cells().count(), self.links]
+        [self.space.patches.len(), self.looks.iter().flatten().map(Vec::len).sum()]
     }
 
     /// The mesh, face by face.
     pub fn parts(&self) -> Vec<Part<V>> {
-        let mut patches: Vec<u32> = self.tree.patches().collect();
+        let mut patches = self.space.patches.clone();
         patches.sort_by_key(|&patch| self.tree.node(patch).face);
-        let mut view = View::default();
-        let mut part = |patch: u32| {
-            let node = self.tree.node(patch);
-            let mut irradiance = V::splat(0.0);
-            for cell in node.parts.clone() {
-                let whole = self.tree.node(cell);
-                let point = self.domain.node_of(whole);
-                let share = self.domain.share_in_sight(whole) * whole.area / node.area;
-                let direct = self.domain.direct(node.face, point, &mut view);
-                irradiance += (direct + self.smooth[cell as usize]) * share;
-            }
-            let [rho, emission] = [self.domain.reflectance(node.face), self.domain.emission(node.face)];
-            let radiosity = emission + rho * irradiance;
+        let part = |leaf: u32| {
+            let node = self.tree.node(leaf);
+            let k = leaf as usize;
+            let irradiance = (self.direct[k] + self.smooth[k]) * self.domain.share_in_sight(node);
+            let radiosity = self.domain.emission(node.face) + self.domain.reflectance(node.face) * irradiance;
             Part { polygon: node.polygon.clone(), face: node.face, radiosity, irradiance }
         };
-        patches.into_iter().map(&mut part).collect()
+        patches.into_iter().flat_map(|patch| self.tree.leaves_of(patch)).map(part).collect()
     }
 
     /// The root of the mean square of the reflected radiosity, in W/m².
     pub(super) fn scale(&self) -> f64 {
         let (mut sum, mut area) = (0.0, 0.0);
-        for cell in self.tree.cells() {
-            let node = self.tree.node(cell);
-            sum += node.area * square(self.radiosity[cell as usize]);
+        for leaf in self.tree.leaves() {
+            let node = self.tree.node(leaf);
+            sum += node.area * square(self.radiosity[leaf as usize]);
             area += node.area;
         }
         (sum / area).sqrt()
@@ -114,46 +115,30 @@ impl<V: Value> Field<'_, V> {
         if self.domain.is_buried(face, point) {
             return V::splat(0.0);
         }
-        let patch = self.tree.patch_at(face, point);
-        if self.rough[patch as usize] {
-            return self.gathered(face, point, view);
-        }
-        self.domain.direct(face, point, view) + self.interpolated(patch, point)
+        self.domain.direct(face, point, view) + self.smooth_at(face, point, view)
     }
 
-    /// D + H at the point itself.
+    /// H at a point, by the polynomial where that does.
+    pub(super) fn smooth_at(&self, face: u32, point: DVec3, view: &mut View) -> V {
+        let patch = self.tree.patch_at(face, point);
+        if self.rough[patch as usize] { self.gathered(face, point, view) } else { self.between(patch, point) }
+    }
+
+    /// H at the point itself.
     pub(super) fn gathered(&self, face: u32, point: DVec3, view: &mut View) -> V {
         let coarseness = Coarseness::new(&self.variation, self.tolerance, self.accuracy);
-        let links: Vec<Link> = self.domain.links(&self.tree, coarseness, (face, point), view);
-        let direct = links.iter().fold(self.domain.sent_by_points(face, point), |sum, link| {
-            sum + self.domain.emission(self.tree.node(link.node).face) * f64::from(link.factor)
-        });
-        direct + gathered(&links, &self.radiosity)
+        let links = self.domain.descent(&self.tree, coarseness, (face, point)).links(view);
+        gathered(&links, &self.sent)
     }
 
-    /// E + A û − û in the middle of a patch, which is the centre of no cell, in W/m².
-    pub(super) fn residual(&self, patch: u32, view: &mut View) -> V {
-        let node = self.tree.node(patch);
-        let point = node.polygon.point(0.5, 0.5);
-        let between = self.domain.direct(node.face, point, view) + self.interpolated(patch, point);
-        self.domain.reflectance(node.face) * (self.gathered(node.face, point, view) - between)
+    /// H on a patch, as the polynomial has it.
+    pub(super) fn between(&self, patch: u32, point: DVec3) -> V {
+        let k = self.space.patches.partition_point(|&other| other < patch);
+        self.space.at(&self.values, k, self.tree.node(patch), point)
     }
 
-    /// H between the centres of a patch's cells: bilinear, or linear on a triangle.
-    pub(super) fn interpolated(&self, patch: u32, point: DVec3) -> V {
-        let node = self.tree.node(patch);
-        let at = node.local(point);
-        let first = node.parts.start as usize;
-        let [a, b, c, d] = [0, 1, 2, 3].map(|k| self.smooth[first + k]);
-        if node.polygon.vertices().len() == 4 {
-            // The centres are at ¼ and ¾.
-            let (s, t) = (2.0 * at.x - 0.5, 2.0 * at.y - 0.5);
-            a * ((1.0 - s) * (1.0 - t)) + b * (s * (1.0 - t)) + c * (s * t) + d * ((1.0 - s) * t)
-        } else {
-            // Through those at the corners, whose centres have shares of ⅔ and ⅙, and moved to the mean of all four.
-            let share = |k: f64| 2.0 * k - 1.0 / 3.0;
-            let moved = (d - (a + b + c) * (1.0 / 3.0)) * 0.25;
-            a * share(1.0 - at.x - at.y) + b * share(at.x) + c * share(at.y) + moved
-        }
+    /// The mean square of the residual of the k-th patch, in (W/m²)².
+    pub(super) fn square_residual(&self, k: usize) -> f64 {
+        self.residuals[k].iter().map(|r| square(*r)).sum::<f64>() / CHECKS as f64
     }
 }

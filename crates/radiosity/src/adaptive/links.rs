@@ -1,6 +1,7 @@
-//! (F u)_i = Σ_links F(x_i, P) · mean of u over P: collocation at the centres of cells, in which what is far away, or much
-//! alike, is one part.
+//! (F u)_i = Σ_links F(x_i, P) · mean of u over P: collocation at the nodes of patches, in which what is far away, or much
+//! alike, is one part, and what is near is seen down to the leaves.
 
+use super::space::Space;
 use super::tree::{Node, Tree};
 use crate::form_factor::exchange::FromAfar;
 use crate::form_factor::outlook::Outlook;
@@ -30,20 +31,20 @@ pub(super) struct Coarseness<'a> {
 }
 
 impl<'a> Coarseness<'a> {
-    /// Down to the cells, and exactly.
-    pub const CELLS: Self = Self { variation: &[], tolerance: 0.0, nearness: 0.0 };
-
     /// For links that may be wrong by `tolerance`, in W/m², in a field of some accuracy.
     pub fn new(variation: &'a [f64], tolerance: f64, accuracy: f64) -> Self {
         Self { variation, tolerance, nearness: FromAfar::nearness(NODES * accuracy) }
     }
 }
 
+/// Most points have fewer links: a list that grows is copied.
+const ROOM: usize = 4096;
+
 /// What the nodes that a part is taken by may be wrong by, as part of the accuracy. Seven nodes take an eighth of the time of
 /// Lambert's formula.
 const NODES: f64 = 0.01;
 
-/// The parts of the scene that a point of a face sees.
+/// The way from the faces down to the parts that a point of a face sees as one.
 pub(super) struct Descent<'a> {
     pub tree: &'a Tree,
     pub outlook: &'a Outlook,
@@ -53,9 +54,9 @@ pub(super) struct Descent<'a> {
 }
 
 impl Descent<'_> {
-    /// Their links.
+    /// The links of the point.
     pub fn links(&self, view: &mut View) -> Vec<Link> {
-        let mut links = Vec::new();
+        let mut links = Vec::with_capacity(ROOM);
         view.go(self.outlook, self.point);
         for (face, hiders) in &self.outlook.seen {
             let polygon = &self.tree.node(*face).polygon;
@@ -66,12 +67,35 @@ impl Descent<'_> {
                 view.leave(&kept);
             }
         }
+        links.shrink_to_fit();
+        links
+    }
+
+    /// The same from links that were found for another field: further down where that is needed now.
+    pub fn further(&self, known: Vec<Link>, view: &mut View) -> Vec<Link> {
+        let ends = |link: &Link| self.tree.is_leaf(link.node) || self.is_one(link.node);
+        if known.iter().all(ends) {
+            return known;
+        }
+        view.go(self.outlook, self.point);
+        let mut links = Vec::with_capacity(ROOM.max(2 * known.len()));
+        for link in known {
+            let part = self.tree.node(link.node);
+            if ends(&link) {
+                links.push(link);
+            } else if let Some(hiders) = self.outlook.hiders_of(part.face)
+                && let Seen::Behind(kept) = view.enter(&part.polygon, hiders)
+            {
+                self.descend(link.node, &kept, view, &mut links);
+                view.leave(&kept);
+            }
+        }
         links
     }
 
     fn descend(&self, node: u32, hiders: &Kept, view: &mut View, links: &mut Vec<Link>) {
         let whole = self.tree.node(node);
-        if self.tree.is_cell(node) || self.is_one(node) {
+        if self.tree.is_leaf(node) || self.is_one(node) {
             let factor = if hiders.is_empty() && self.is_far(whole) {
                 whole.from_afar.factor(self.point, self.normal)
             } else {
@@ -98,7 +122,7 @@ impl Descent<'_> {
 
     /// Whether what is on it may be taken for its mean.
     fn is_one(&self, node: u32) -> bool {
-        let Some(variation) = self.coarseness.variation.get(node as usize) else { return false };
+        let variation = self.coarseness.variation[node as usize];
         let part = self.tree.node(node);
         let away = part.polygon.centroid() - self.point;
         let distance = away.length();
@@ -114,27 +138,28 @@ impl Descent<'_> {
     }
 }
 
-/// The links of all cells.
-#[derive(Debug)]
+/// What the points of a patch see: its nodes, then its checks.
+pub(super) type Looks = Vec<Vec<Link>>;
+
+/// The links of all nodes of the space as an operator.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Links<'a> {
     pub tree: &'a Tree,
-    /// The cells, in the order of the unknowns.
-    pub cells: &'a [u32],
-    pub links: Vec<Vec<Link>>,
+    pub space: &'a Space,
+    /// What each patch of the tree sees.
+    pub looks: &'a [Looks],
 }
 
-/// The mean over every node of what is given for every cell.
-pub(super) fn means<V: Value>(tree: &Tree, cells: &[u32], u: &[V]) -> Vec<V> {
-    let mut means = vec![V::splat(0.0); tree.nodes.len()];
-    cells.iter().zip(u).for_each(|(cell, value)| means[*cell as usize] = *value);
-    for (k, node) in tree.nodes.iter().enumerate().rev().filter(|(_, node)| !node.parts.is_empty()) {
-        let sum = node
-            .parts
-            .clone()
-            .fold(V::splat(0.0), |sum, part| sum + means[part as usize] * tree.node(part).area);
-        means[k] = sum * (1.0 / node.area);
+impl Links<'_> {
+    /// What arrives at every node of the space, of what is given for every node of the tree.
+    pub fn gathered<V: Value>(&self, means: &[V]) -> Vec<V> {
+        let Self { space, looks, .. } = self;
+        let of_patch = |(k, &patch): (usize, &u32)| {
+            let nodes = looks[patch as usize].iter().take(space.range(k).len());
+            nodes.map(|links| gathered(links, means))
+        };
+        space.patches.par_iter().enumerate().flat_map_iter(of_patch).collect()
     }
-    means
 }
 
 /// Σ_links F u.
@@ -144,10 +169,10 @@ pub(super) fn gathered<V: Value>(links: &[Link], means: &[V]) -> V {
 
 impl Matrix for Links<'_> {
     fn dim(&self) -> usize {
-        self.cells.len()
+        self.space.dim()
     }
 
-    /// A planar cell does not see itself.
+    /// A planar patch does not see itself.
     fn diagonal(&self, _: usize) -> f64 {
         0.0
     }
@@ -155,7 +180,6 @@ impl Matrix for Links<'_> {
 
 impl<V: Value> Operator<V> for Links<'_> {
     fn apply(&self, u: &[V], out: &mut [V]) {
-        let means = means(self.tree, self.cells, u);
-        out.par_iter_mut().zip(&self.links).for_each(|(value, links)| *value = gathered(links, &means));
+        out.copy_from_slice(&self.gathered(&self.space.means(self.tree, u)));
     }
 }

@@ -2,13 +2,15 @@
 
 use super::Request;
 use super::field::Field;
-use super::round::{Mesh, variation_of};
+use super::links::{Looks, gathered};
+use super::round::Mesh;
+use super::space::{CHECKS, Element, Space};
 use fredholm::value::Value;
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Cells more for a patch that is cut: four are cut in four.
-pub(super) const NEW: usize = 12;
+/// Patches more for one that is cut.
+pub(super) const NEW: usize = 3;
 
 /// Patches are cut that have this part of the whole (Dörfler's marking): fewer are more rounds, more are finer than needed.
 const BULK: f64 = 0.95;
@@ -17,7 +19,7 @@ const BULK: f64 = 0.95;
 const SOURCE: f64 = 0.005;
 
 /// The part of the accuracy that links may take.
-const LINKS: f64 = 0.3;
+pub(super) const LINKS: f64 = 0.3;
 
 /// A patch is not interpolated on where that is wrong by so many times the accuracy: of the light on it, for eyes look for
 /// steps in the dark too, but not of less than the second part of the mean.
@@ -32,16 +34,16 @@ pub(super) fn square<V: Value>(value: V) -> f64 {
 /// The patches to be cut, the worst first.
 pub(super) fn marked<V: Value>(field: &Field<'_, V>, request: &Request) -> Vec<u32> {
     let within = field.bound.discretisation + field.bound.iteration;
-    if within <= (1.0 - LINKS) * request.accuracy {
+    if field.bound.total() > 0.0 && within <= (1.0 - LINKS) * request.accuracy {
         return Vec::new();
     }
-    let error = |patch: u32| {
+    let error = |(k, &patch): (usize, &u32)| {
         let node = field.tree.node(patch);
         let mean = field.radiosity[patch as usize];
         let spread: f64 = node.parts.clone().map(|k| square(field.radiosity[k as usize] - mean)).sum();
-        node.area * (square(field.residuals[patch as usize]) + SOURCE * spread / 4.0)
+        (node.area * (field.square_residual(k) + SOURCE * spread / 4.0), patch)
     };
-    let mut patches: Vec<(f64, u32)> = field.tree.patches().map(|patch| (error(patch), patch)).collect();
+    let mut patches: Vec<(f64, u32)> = field.space.patches.iter().enumerate().map(error).collect();
     patches.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     let bulk = BULK * patches.iter().map(|(error, _)| error).sum::<f64>();
     let mut sum = 0.0;
@@ -54,42 +56,80 @@ pub(super) fn marked<V: Value>(field: &Field<'_, V>, request: &Request) -> Vec<u
 }
 
 /// The next mesh.
-pub(super) fn refined<V: Value>(field: Field<'_, V>, marked: &[u32], accuracy: f64) -> Mesh {
-    let scale = field.scale();
-    let Field { mut tree, radiosity: mut values, bound, .. } = field;
+pub(super) fn refined<V: Value>(field: Field<'_, V>, marked: &[u32], accuracy: f64) -> Mesh<V> {
+    let told = field.bound.form_factors;
+    let tolerance = if told > 0.0 {
+        field.tolerance * (LINKS * accuracy / told).clamp(0.1, 2.0)
+    } else {
+        field.tolerance
+    };
+    let mut tree = field.tree.clone();
+    marked.iter().for_each(|&patch| tree.cut(patch));
+    let space = Space::new(field.domain, &tree);
+    let believed = |&patch: &u32| {
+        let node = tree.node(patch);
+        let before = field.tree.patch_at(node.face, node.polygon.centroid());
+        let element = Element::of(&node.polygon);
+        let points: Vec<DVec3> = element.points(&node.polygon).take(element.dim()).collect();
+        points.into_iter().map(|point| field.between(before, point)).collect::<Vec<V>>()
+    };
+    let values = space.patches.par_iter().flat_map_iter(believed).collect();
+    let mut looks = field.looks;
+    looks.resize(tree.nodes.len(), Looks::new());
     for &patch in marked {
-        for cell in tree.node(patch).parts.clone() {
-            let parts = tree.quarter(cell);
-            values.resize(values.len() + parts.len(), values[cell as usize]);
+        let node = tree.node(patch);
+        let before = std::mem::take(&mut looks[patch as usize]);
+        let checks = before.into_iter().skip(Element::of(&node.polygon).dim());
+        for (part, check) in node.parts.clone().zip(checks) {
+            looks[part as usize] = Element::of(&node.polygon).around(check);
         }
     }
-    let tolerance = if field.tolerance == 0.0 {
-        // A first guess, and then what the error that it made asks for.
-        0.1 * LINKS * accuracy * scale
-    } else {
-        field.tolerance * (LINKS * accuracy / bound.form_factors).clamp(0.1, 2.0)
-    };
-    Mesh { variation: variation_of(&tree, &values), tree, tolerance }
+    let direct = field.domain.direct_at_leaves(&tree, field.direct);
+    Mesh {
+        tree,
+        space,
+        direct,
+        values,
+        looks,
+        unknown: 0.0,
+        tolerance,
+        contraction: field.iteration.contraction,
+    }
 }
 
-/// The residual in the middle of each patch; 0 for other nodes.
-pub(super) fn residuals<V: Value>(field: &Field<'_, V>) -> Vec<V> {
-    let of_node = |view: &mut _, node: u32| {
-        if field.tree.is_patch(node) { field.residual(node, view) } else { V::splat(0.0) }
+/// The residual in the checks of each patch.
+pub(super) fn residuals<V: Value>(field: &Field<'_, V>) -> Vec<[V; CHECKS]> {
+    let of_patch = |k: usize| {
+        let patch = field.space.patches[k];
+        let node = field.tree.node(patch);
+        let rho = field.domain.reflectance(node.face);
+        let nodes = field.space.range(k).len();
+        let points = Element::of(&node.polygon).points(&node.polygon).skip(nodes);
+        let mut checks = points.zip(&field.looks[patch as usize][nodes..]);
+        std::array::from_fn(|_| {
+            checks.next().map_or(V::splat(0.0), |(point, links)| {
+                rho * (gathered(links, &field.sent) - field.between(patch, point))
+            })
+        })
     };
-    (0..field.tree.nodes.len() as u32).into_par_iter().map_init(Default::default, of_node).collect()
+    (0..field.space.patches.len()).into_par_iter().map(of_patch).collect()
 }
 
-/// Of each node, whether it is a patch between whose cells the light is not smooth: where something stands on it, say.
+/// Of each node, whether it is a patch on which the light is not smooth: where something stands on it, say.
 pub(super) fn rough<V: Value>(field: &Field<'_, V>, accuracy: f64) -> Vec<bool> {
     let scale = field.scale();
-    let is_rough = |node: u32| {
-        let light = square(field.radiosity[node as usize]).sqrt().clamp(DARK * scale, scale);
+    let is_rough = |k: usize, patch: u32| {
+        let light = square(field.radiosity[patch as usize]).sqrt().clamp(DARK * scale, scale);
         let tolerance = (ROUGH * accuracy * light).powi(2);
-        square(field.residuals[node as usize]) > tolerance || steps(field, node).any(|step| step > tolerance)
+        field.space.is_holed(patch)
+            || field.residuals[k].iter().any(|r| square(*r) > tolerance)
+            || steps(field, patch).any(|step| step > tolerance)
     };
-    let nodes = 0..field.tree.nodes.len() as u32;
-    nodes.into_par_iter().map(|node| field.tree.is_patch(node) && is_rough(node)).collect()
+    let mut rough = vec![false; field.tree.nodes.len()];
+    let patches = &field.space.patches;
+    let found: Vec<bool> = patches.par_iter().enumerate().map(|(k, &patch)| is_rough(k, patch)).collect();
+    patches.iter().zip(found).for_each(|(&patch, found)| rough[patch as usize] = found);
+    rough
 }
 
 /// The squares of the steps of radiosity where the field goes from a patch to its neighbours, at corners and middles of sides.
@@ -101,6 +141,6 @@ fn steps<'a, V: Value>(field: &'a Field<'_, V>, patch: u32) -> impl Iterator<Ite
     let places = (0..v.len()).flat_map(move |k| [v[k], v[k].midpoint(v[(k + 1) % v.len()])]);
     places.map(move |place: DVec3| {
         let beyond = field.tree.patch_at(node.face, place + (place - middle) * 1e-3);
-        square(rho * (field.interpolated(patch, place) - field.interpolated(beyond, place)))
+        square(rho * (field.between(patch, place) - field.between(beyond, place)))
     })
 }

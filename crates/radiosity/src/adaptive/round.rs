@@ -1,111 +1,212 @@
-//! One mesh: its links, the equation on them, and the field that it makes.
+//! One mesh: its links, the equation on them, and the field that it makes. What was found for the mesh before is kept.
 
 use super::domain::Domain;
-use super::error;
+use super::error::Bound;
 use super::field::Field;
-use super::links::{Coarseness, Link, Links, gathered, means};
-use super::refine::{residuals, rough};
-use super::tree::Tree;
-use fredholm::operator::Operator;
-use fredholm::relax::{Relaxation, Report, Stop, SuccessiveApproximation, relax};
+use super::links::{Coarseness, Link, Links, Looks};
+use super::refine::{LINKS, residuals, rough};
+use super::space::{Element, Space, average};
+use super::tree::{Node, Tree};
+use fredholm::relax::{Relaxation, Stop, SuccessiveApproximation, relax};
 use fredholm::system::System;
-use fredholm::value::{Value, max_norm};
+use fredholm::value::Value;
+use glam::DVec3;
 use rayon::prelude::*;
 
 /// A mesh to be solved on.
 #[derive(Debug)]
-pub(super) struct Mesh {
+pub(super) struct Mesh<V> {
     pub tree: Tree,
-    /// How far the radiosity is believed to be from its mean over each node, in W/m²; unknown at first.
-    pub variation: Vec<f64>,
+    pub space: Space,
+    /// D at the points of nodes, as far as it is known, in W/m².
+    pub direct: Vec<V>,
+    /// H at the nodes of the space as it is believed to be, in W/m².
+    pub values: Vec<V>,
+    /// What is seen of the mesh before, where it is known.
+    pub looks: Vec<Looks>,
+    /// How much the radiosity is believed to vary over the whole scene beside that, in W/m².
+    pub unknown: f64,
     /// The irradiance that a link may be wrong by, in W/m².
     pub tolerance: f64,
+    /// By how much sweeps on the meshes before made their residual smaller at the least.
+    pub contraction: f64,
 }
 
 /// The first patches are no larger than this part of the scene.
 const FIRST: f64 = 0.6;
 
-/// The residual of the cells' equations, as part of the accuracy and of the brightest source.
+/// The residual of the nodes' equations, as part of the accuracy and of the brightest source.
 const ITERATION: f64 = 0.01;
 
 /// Bounces that are followed: 10⁴ are the light between mirrors of .999.
 pub(super) const SWEEPS: usize = 10_000;
 
-impl Mesh {
-    /// The first one.
-    pub fn first<V: Value>(domain: &Domain<'_, V>) -> Self {
+/// Bounces of the light that is believed to be everywhere before any is computed.
+const AMBIENT: usize = 16;
+
+/// Part of it by which light is believed to vary over the scene.
+const VARIES: f64 = 0.5;
+
+impl<V: Value> Mesh<V> {
+    /// The first one: light from lamps, and the ambient term that goes with it.
+    pub fn first(domain: &Domain<'_, V>, accuracy: f64) -> Self {
         let tree = Tree::new(domain.faces(), FIRST * domain.extent());
-        Self { tree, variation: Vec::new(), tolerance: 0.0 }
+        let direct = domain.direct_at_leaves(&tree, Vec::new());
+        let area: f64 = tree.leaves().map(|leaf| tree.node(leaf).area).sum();
+        let mean = |value: &dyn Fn(&Node, u32) -> V| {
+            let sum = tree.leaves().map(|leaf| (tree.node(leaf), leaf));
+            sum.fold(V::splat(0.0), |sum, (node, leaf)| sum + value(node, leaf) * (node.area / area))
+        };
+        let rho = mean(&|node, _| domain.reflectance(node.face));
+        let sent = mean(&|node, leaf| {
+            let lamps = if domain.has_lamps() { V::splat(0.0) } else { domain.emission(node.face) };
+            direct[leaf as usize] + lamps
+        });
+        let ambient = (0..AMBIENT).fold(V::splat(0.0), |ambient, _| rho * (sent + ambient));
+        let scale = mean(&|node, leaf| {
+            let lit = domain.reflectance(node.face) * (direct[leaf as usize] + ambient);
+            lit.map(|c| c * c)
+        });
+        let space = Space::new(domain, &tree);
+        Self {
+            values: vec![ambient; space.dim()],
+            looks: vec![Looks::new(); tree.nodes.len()],
+            unknown: VARIES * (rho * ambient).magnitude(),
+            tolerance: first_tolerance(accuracy, scale.channels().iter().sum::<f64>().sqrt()),
+            contraction: 0.0,
+            tree,
+            space,
+            direct,
+        }
     }
 
-    /// The field on this mesh, and its error.
-    pub fn solved<'a, V: Value>(self, domain: &'a Domain<'a, V>, accuracy: f64) -> Field<'a, V> {
-        let Self { tree, variation, tolerance } = self;
-        let cells: Vec<u32> = tree.cells().collect();
+    /// The field on this mesh.
+    pub fn solved<'a>(self, domain: &'a Domain<'a, V>, accuracy: f64) -> Field<'a, V> {
+        let variation = self.variation(domain);
+        let Self { tree, space, direct, values: guess, looks: known, tolerance, contraction, .. } = self;
         let coarseness = Coarseness::new(&variation, tolerance, accuracy);
-        let look = |view: &mut _, cell: &u32| {
-            let node = tree.node(*cell);
-            domain.links(&tree, coarseness, (node.face, domain.node_of(node)), view)
+        let look = |view: &mut _, (node, known): (u32, Looks)| {
+            let Node { polygon, face, is_patch: true, .. } = tree.node(node) else { return Looks::new() };
+            let from = |(point, known): (DVec3, Vec<Link>)| {
+                let descent = domain.descent(&tree, coarseness, (*face, point));
+                if known.is_empty() { descent.links(view) } else { descent.further(known, view) }
+            };
+            let known = known.into_iter().chain(std::iter::repeat(Vec::new()));
+            Element::of(polygon).points(polygon).zip(known).map(from).collect()
         };
-        let links: Vec<Vec<Link>> = cells.par_iter().map_init(Default::default, look).collect();
-        let count = links.iter().map(Vec::len).sum();
-        let operator = Links { tree: &tree, cells: &cells, links };
-        let solved = solved(domain, &operator, accuracy);
-        let links = operator.links;
-        let radiosity = means(&tree, &cells, &solved.radiosity);
+        let nodes = (0..tree.nodes.len() as u32).into_par_iter();
+        let looks: Vec<Looks> = nodes.zip(known).map_init(Default::default, look).collect();
+        let operator = Links { tree: &tree, space: &space, looks: &looks };
+        let Solved { values, mut iteration } = solved(domain, operator, &direct, &guess, accuracy);
+        // From a good start all but the quick part of the error is gone.
+        iteration.contraction = iteration.contraction.max(contraction);
+        let smooth = space.means(&tree, &values);
+        let radiosity = reflected(domain, &tree, &direct, &smooth);
         let mut field = Field {
-            domain,
-            smooth: means(&tree, &cells, &solved.smooth),
             variation: variation_of(&tree, &radiosity),
+            sent: with_emission(domain, &tree, radiosity.clone()),
+            domain,
+            tree,
+            space,
+            direct,
+            values,
+            smooth,
             radiosity,
+            looks,
             residuals: Vec::new(),
             rough: Vec::new(),
-            tree,
             tolerance,
             accuracy,
-            links: count,
-            bound: error::Bound::default(),
+            iteration,
+            bound: Bound::default(),
         };
         field.residuals = residuals(&field);
         field.rough = rough(&field, accuracy);
-        let operator = Links { tree: &field.tree, cells: &cells, links };
-        field.bound = error::bound(&field, &operator, &solved.report);
         field
     }
+
+    /// How far the radiosity is believed to be from its mean over each node, in W/m².
+    fn variation(&self, domain: &Domain<'_, V>) -> Vec<f64> {
+        let Self { tree, space, direct, values, unknown, .. } = self;
+        let smooth = space.means(tree, values);
+        let mut variation = variation_of(tree, &reflected(domain, tree, direct, &smooth));
+        let unknown = unknown / domain.extent();
+        variation.iter_mut().zip(&tree.nodes).for_each(|(v, node)| *v += unknown * node.diameter);
+        variation
+    }
+}
+
+/// The mean of the reflected radiosity over each node, of the irradiance D + H of the leaves.
+fn reflected<V: Value>(domain: &Domain<'_, V>, tree: &Tree, direct: &[V], smooth: &[V]) -> Vec<V> {
+    let mut radiosity = vec![V::splat(0.0); tree.nodes.len()];
+    for leaf in tree.leaves() {
+        let k = leaf as usize;
+        radiosity[k] = domain.reflectance(tree.node(leaf).face) * (direct[k] + smooth[k]);
+    }
+    average(tree, &mut radiosity);
+    radiosity
+}
+
+/// The radiosity that H is made of: of lamps that are looked at one by one, only what they reflect.
+fn with_emission<V: Value>(domain: &Domain<'_, V>, tree: &Tree, mut radiosity: Vec<V>) -> Vec<V> {
+    if !domain.has_lamps() {
+        radiosity.iter_mut().zip(&tree.nodes).for_each(|(b, node)| *b += domain.emission(node.face));
+    }
+    radiosity
 }
 
 struct Solved<V> {
-    /// The reflected radiosity of each cell.
-    radiosity: Vec<V>,
-    /// The irradiance of each cell, without that of lamps that are looked at one by one.
-    smooth: Vec<V>,
-    report: Report,
+    /// H at the nodes of the space.
+    values: Vec<V>,
+    iteration: Iteration,
 }
 
-fn solved<V: Value>(domain: &Domain<'_, V>, operator: &Links<'_>, accuracy: f64) -> Solved<V> {
-    let Links { tree, cells, .. } = *operator;
-    let reflectance: Vec<V> = cells.iter().map(|&cell| domain.reflectance(tree.node(cell).face)).collect();
-    // E is the same all over a face, and its links have all of the face together: this is ∫ K E to the last digit.
-    let emission: Vec<V> = tree.nodes.iter().map(|node| domain.emission(node.face)).collect();
-    let direct: Vec<V> = operator.links.iter().map(|links| gathered(links, &emission)).collect();
-    let of_points = cells.par_iter().map(|&cell| {
-        let node = tree.node(cell);
-        domain.sent_by_points(node.face, domain.node_of(node))
-    });
-    let of_points: Vec<V> = of_points.collect();
-    let lit = direct.iter().zip(&of_points).zip(&reflectance);
-    let source: Vec<V> = lit.map(|((lamps, points), rho)| (*lamps + *points) * *rho).collect();
-    let system = System { source: &source, coefficient: &reflectance, operator };
-    let stop = Stop { residual: ITERATION * accuracy * max_norm(&source), sweeps: SWEEPS };
+/// How the equations of the nodes were solved.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Iteration {
+    /// What is left of their residual, in W/m².
+    pub residual: f64,
+    /// By how much the last sweep made it smaller.
+    pub contraction: f64,
+}
+
+/// H = F (E + ρ D) + F w, where w = ρ H satisfies w = ρ F (E + ρ D) + ρ F w; the unknown is what is wrong with a guess of w.
+fn solved<V: Value>(
+    domain: &Domain<'_, V>,
+    operator: Links<'_>,
+    direct: &[V],
+    guess: &[V],
+    accuracy: f64,
+) -> Solved<V> {
+    let Links { tree, space, .. } = operator;
+    let nothing = vec![V::splat(0.0); tree.nodes.len()];
+    let first = operator.gathered(&with_emission(domain, tree, reflected(domain, tree, direct, &nothing)));
+    let reflectance = domain.reflectances(tree, space);
+    let mut w: Vec<V> = guess.iter().zip(&reflectance).map(|(h, rho)| *h * *rho).collect();
+    let arrives = |w: &[V]| -> Vec<V> {
+        let again = operator.gathered(&space.means(tree, w));
+        again.into_iter().zip(&first).map(|(again, first)| again + *first).collect()
+    };
+    let wrong = |((h, rho), w): ((V, &V), &V)| h * *rho - *w;
+    let source: Vec<V> = arrives(&w).into_iter().zip(&reflectance).zip(&w).map(wrong).collect();
+    let system = System { source: &source, coefficient: &reflectance, operator: &operator };
+    let brightest =
+        first.iter().zip(&reflectance).map(|(h, rho)| (*h * *rho).magnitude()).fold(0.0, f64::max);
+    let stop = Stop { residual: ITERATION * accuracy * brightest, sweeps: SWEEPS };
     let mut relaxation = SuccessiveApproximation::new(system);
     let report = relax(&mut relaxation, stop, |_, _, _| true);
-    let radiosity = relaxation.solution();
-    let mut smooth = vec![V::splat(0.0); cells.len()];
-    operator.apply(&radiosity, &mut smooth);
-    if !domain.has_lamps() {
-        smooth.iter_mut().zip(&direct).for_each(|(h, direct)| *h += *direct);
-    }
-    Solved { radiosity, smooth, report }
+    w.iter_mut().zip(relaxation.solution()).for_each(|(w, wrong)| *w += wrong);
+    let values = arrives(&w);
+    let contraction = match report.residuals.as_slice() {
+        [.., before, last] if *before > 0.0 => (last / before).min(0.9999),
+        _ => 0.0,
+    };
+    Solved { values, iteration: Iteration { residual: report.residual, contraction } }
+}
+
+/// What links may be wrong by before it is known what their errors add up to.
+pub(super) fn first_tolerance(accuracy: f64, scale: f64) -> f64 {
+    0.1 * LINKS * accuracy * scale
 }
 
 /// How far the values on each node are from their middle, by half of what is between the least and the largest.

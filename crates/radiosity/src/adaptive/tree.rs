@@ -1,4 +1,5 @@
-//! The mesh of the domain as a forest: faces, cut into quarters where the solution asks for it.
+//! The mesh of the domain as a forest: faces, cut into quarters where the solution asks for it, down to patches, on which
+//! light is a polynomial; below them two more generations, the last of which, leaves, tell apart what is seen of a patch.
 
 use crate::form_factor::exchange::FromAfar;
 use crate::patches::inverse_bilinear;
@@ -15,7 +16,9 @@ pub(super) struct Node {
     pub from_afar: FromAfar,
     /// The face that it is a part of.
     pub face: u32,
-    /// Its parts, none of a cell.
+    /// Whether light is a polynomial on it.
+    pub is_patch: bool,
+    /// Its parts, none of a leaf.
     pub parts: Range<u32>,
 }
 
@@ -26,33 +29,50 @@ pub(super) struct Tree {
 }
 
 impl Tree {
-    /// The faces, each in parts that are about as long as wide, and these in cells.
+    /// The faces, each in parts that are about as long as wide, and these in patches of some diameter at most.
     pub fn new(faces: &[Polygon], size: f64) -> Self {
         let node = |(polygon, k): (&Polygon, u32)| Node::new(polygon.clone(), k);
         let mut tree = Self { nodes: faces.iter().zip(0..).map(node).collect() };
         for face in 0..faces.len() as u32 {
             let pieces = strips(&faces[face as usize]);
             let parts = if pieces.len() > 1 { tree.divide(face, pieces) } else { face..face + 1 };
-            parts.for_each(|part| tree.quarter_down_to(part, size));
+            parts.for_each(|part| tree.patch_down_to(part, size));
         }
         tree
     }
 
-    fn quarter_down_to(&mut self, node: u32, size: f64) {
-        let parts = self.quarter(node);
+    fn patch_down_to(&mut self, node: u32, size: f64) {
         if self.node(node).diameter > size {
-            parts.for_each(|part| self.quarter_down_to(part, size));
+            self.quarters(node).for_each(|part| self.patch_down_to(part, size));
+        } else {
+            self.make_patch(node);
         }
+    }
+
+    fn make_patch(&mut self, node: u32) {
+        self.nodes[node as usize].is_patch = true;
+        for quarter in self.quarters(node) {
+            self.quarters(quarter);
+        }
+    }
+
+    /// Cuts a patch in four.
+    pub fn cut(&mut self, patch: u32) {
+        self.nodes[patch as usize].is_patch = false;
+        self.quarters(patch).for_each(|part| self.make_patch(part));
     }
 
     pub fn node(&self, node: u32) -> &Node {
         &self.nodes[node as usize]
     }
 
-    /// Cuts a cell in four.
-    pub fn quarter(&mut self, node: u32) -> Range<u32> {
-        let quarters = self.node(node).polygon.quarters();
-        self.divide(node, quarters)
+    /// The parts of a node, which has four from now on.
+    fn quarters(&mut self, node: u32) -> Range<u32> {
+        if self.is_leaf(node) {
+            self.divide(node, self.node(node).polygon.quarters())
+        } else {
+            self.node(node).parts.clone()
+        }
     }
 
     fn divide(&mut self, node: u32, pieces: impl IntoIterator<Item = Polygon>) -> Range<u32> {
@@ -64,30 +84,29 @@ impl Tree {
     }
 
     /// Whether it has no parts.
-    pub fn is_cell(&self, node: u32) -> bool {
+    pub fn is_leaf(&self, node: u32) -> bool {
         self.node(node).parts.is_empty()
     }
 
-    /// Whether its parts are cells.
-    pub fn is_patch(&self, node: u32) -> bool {
-        let parts = &self.node(node).parts;
-        !parts.is_empty() && self.is_cell(parts.start)
-    }
-
     /// All nodes without parts.
-    pub fn cells(&self) -> impl Iterator<Item = u32> + '_ {
-        (0..self.nodes.len() as u32).filter(|&node| self.is_cell(node))
+    pub fn leaves(&self) -> impl Iterator<Item = u32> + '_ {
+        (0..self.nodes.len() as u32).filter(|&node| self.is_leaf(node))
     }
 
-    /// All nodes whose parts are cells.
+    /// All patches.
     pub fn patches(&self) -> impl Iterator<Item = u32> + '_ {
-        (0..self.nodes.len() as u32).filter(|&node| self.is_patch(node))
+        (0..self.nodes.len() as u32).filter(|&node| self.node(node).is_patch)
+    }
+
+    /// The leaves of a patch, quarter by quarter.
+    pub fn leaves_of(&self, patch: u32) -> impl Iterator<Item = u32> + '_ {
+        self.node(patch).parts.clone().flat_map(|quarter| self.node(quarter).parts.clone())
     }
 
     /// The patch of a face that a point lies on, the nearest for a point outside.
     pub fn patch_at(&self, face: u32, point: DVec3) -> u32 {
         let mut node = face;
-        while !self.is_patch(node) {
+        while !self.node(node).is_patch {
             let nearest = |part: &u32| self.node(*part).polygon.distance_outside(point);
             let parts = self.node(node).parts.clone();
             node = parts.min_by(|a, b| nearest(a).total_cmp(&nearest(b))).unwrap_or(node);
@@ -104,6 +123,7 @@ impl Node {
             from_afar: FromAfar::new(&polygon),
             polygon,
             face,
+            is_patch: false,
             parts: 0..0,
         }
     }

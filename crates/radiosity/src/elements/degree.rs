@@ -32,7 +32,7 @@ impl Degree {
 
 /// The reference element: the triangle (0,0) (1,0) (0,1), or the unit square.
 #[derive(Clone, Debug)]
-pub(super) struct Reference {
+pub(crate) struct Reference {
     /// The nodes y_a.
     pub nodes: Vec<[f64; 2]>,
     /// Their weights, which add up to 1.

@@ -31,6 +31,7 @@ mod rules;
 mod space;
 
 pub use coupling::Elements;
+pub(crate) use degree::Reference;
 pub use degree::{Degree, Local, MOST};
 pub use moments::{Front, Moments, integral};
 pub use near::Polar;

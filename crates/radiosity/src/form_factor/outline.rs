@@ -43,6 +43,14 @@ impl Outline {
         outline
     }
 
+    /// A triangle or a quadrilateral as it is seen from a point.
+    pub fn from_point(vertices: &[DVec3], point: DVec3) -> Self {
+        let mut outline = Self::EMPTY;
+        vertices.iter().for_each(|v| outline.push(*v - point));
+        outline.close();
+        outline
+    }
+
     /// Puts the first vertex behind the last again.
     #[inline(always)]
     fn close(&mut self) {

@@ -166,6 +166,11 @@ impl<'a> Outlooks<'a> {
 const TOUCH: f64 = 1e-9;
 
 impl Outlook {
+    /// What may hide some of a face; `None` for a face of which nothing is seen.
+    pub fn hiders_of(&self, face: u32) -> Option<&Hiders> {
+        self.seen.binary_search_by_key(&face, |(face, _)| *face).ok().map(|k| &self.seen[k].1)
+    }
+
     /// Whether bodies stand on the face.
     pub fn is_stood_on(&self) -> bool {
         !self.standing.is_empty()

@@ -83,7 +83,7 @@ impl View {
         if self.kept.len() == start {
             return Seen::Behind(Kept::Few(start..start));
         }
-        let part = Outline::new(part.vertices()).seen_from(self.x);
+        let part = Outline::from_point(part.vertices(), self.x);
         let mut end = start;
         for k in start..self.kept.len() {
             let shadow = &self.shadows[self.kept[k] as usize];
@@ -117,7 +117,7 @@ impl View {
             return whole;
         }
         let Kept::Few(hiders) = hiders else { return whole * self.share_of_rays(&outlook.rays, part) };
-        let mut target = Outline::new(part.vertices()).seen_from(self.x);
+        let mut target = Outline::from_point(part.vertices(), self.x);
         let normal = self.normal;
         target.keep_above(|v| v.dot(normal));
         let rest = self.rest(whole, target, hiders.clone());
@@ -150,7 +150,7 @@ impl View {
         let Self { shadows, planes, kept, pieces, room, normal, .. } = self;
         let shadow = |k: u32| &planes[shadows[k as usize].0.clone()];
         if let [one] = kept[hiders.clone()] {
-            return whole - hidden(target, shadow(one), *normal, room);
+            return whole - hidden(&target, shadow(one), *normal, room);
         }
         pieces.clear();
         pieces.push(target);
@@ -178,11 +178,11 @@ const RAYS: usize = 48;
 const FEW: usize = 5;
 
 /// The form factor of what is above all planes.
-fn hidden(piece: Outline, planes: &[DVec3], normal: DVec3, room: &mut [Outline; 2]) -> f64 {
+fn hidden(piece: &Outline, planes: &[DVec3], normal: DVec3, room: &mut [Outline; 2]) -> f64 {
     let (now, later) = planes.split_at(planes.len().min(FEW));
     let part = match piece.inside(now, room) {
         Inside::Nothing => return 0.0,
-        Inside::Part(part) => *part,
+        Inside::Part(part) => part,
         Inside::All => piece,
     };
     if later.is_empty() {
@@ -191,7 +191,7 @@ fn hidden(piece: Outline, planes: &[DVec3], normal: DVec3, room: &mut [Outline; 
     part.uncrowded()
         .into_iter()
         .filter(|half| !half.is_empty())
-        .map(|half| hidden(half, later, normal, room))
+        .map(|half| hidden(&half, later, normal, room))
         .sum()
 }
 

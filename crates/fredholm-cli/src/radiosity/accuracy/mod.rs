@@ -66,7 +66,7 @@ pub fn walk<V: Colour>(
     files.extend(json.as_ref().and_then(Json::file));
     seconds.total = start.elapsed().as_secs_f64();
     let means = surfaces(scene, &parts.patches, units, (&parts.radiosity, &parts.irradiance));
-    let report = Report::new(scene, accuracy, &rounds, (units, means), seconds, files);
+    let report = Report::new(scene, accuracy, &rounds, field.bound(), (units, means), seconds, files);
     json::tell(json, &report, &table::table(&report))?;
     Ok(if report.is_met() { Ending::Converged } else { Ending::NotConverged })
 }
@@ -86,10 +86,10 @@ impl Progress {
     }
 
     fn tell(&self, round: &Round) {
-        let error = round.bound.total();
+        let error = round.error;
         let done = (error.ln() / self.accuracy.ln()).clamp(0.0, 1.0);
         self.bar.set_position((Self::STEPS * done) as u64);
-        self.bar.set_message(format!("{} cells, error {:.2} %", round.cells, 100.0 * error));
+        self.bar.set_message(format!("{} patches, error {:.2} %", round.patches, 100.0 * error));
     }
 
     fn finish(&self) {
@@ -97,7 +97,7 @@ impl Progress {
     }
 }
 
-/// The mesh of the answer, with means over its patches.
+/// The mesh of the answer, with means over its parts.
 struct Parts<V> {
     patches: Patches<V>,
     radiosity: Vec<V>,

@@ -3,7 +3,7 @@
 use crate::radiosity::memory;
 use crate::radiosity::report::{Named, Surface};
 use crate::radiosity::timing::Seconds;
-use radiosity::adaptive::Round;
+use radiosity::adaptive::{Bound, Round};
 use radiosity::scene::{Scene, Units};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -26,8 +26,8 @@ pub struct Report {
     pub form_factor_error: f64,
     /// Of the iteration.
     pub iteration_error: f64,
-    /// Cells of the last mesh.
-    pub cells: usize,
+    /// Patches of the last mesh.
+    pub patches: usize,
     /// Form factors of the last mesh.
     pub form_factors: usize,
     /// The meshes on the way, and the last one.
@@ -49,11 +49,11 @@ pub struct Report {
 /// A mesh and the error on it.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Mesh {
-    /// How many cells.
-    pub cells: usize,
+    /// How many patches.
+    pub patches: usize,
     /// How many form factors.
     pub form_factors: usize,
-    /// The whole error.
+    /// The whole error, or the residual where that alone is larger than the error may be.
     pub error: f64,
 }
 
@@ -63,31 +63,27 @@ impl Report {
         scene: &Scene<V>,
         accuracy: f64,
         rounds: &[Round],
+        bound: Bound,
         (units, surfaces): (Units, Vec<Surface>),
         seconds: Seconds,
         files: Vec<PathBuf>,
     ) -> Self {
-        let mesh = |round: &Round| Mesh {
-            cells: round.cells,
-            form_factors: round.links,
-            error: round.bound.total(),
-        };
-        let rounds: Vec<(Round, Mesh)> = rounds.iter().map(|round| (*round, mesh(round))).collect();
-        let (bound, last) = rounds.last().map_or_else(
-            || (radiosity::adaptive::Bound::default(), Mesh { cells: 0, form_factors: 0, error: 0.0 }),
-            |(round, mesh)| (round.bound, *mesh),
-        );
+        let mesh =
+            |round: &Round| Mesh { patches: round.patches, form_factors: round.links, error: round.error };
+        let rounds: Vec<Mesh> = rounds.iter().map(mesh).collect();
+        let [patches, form_factors] = rounds.last().map_or([0; 2], |mesh| [mesh.patches, mesh.form_factors]);
+        let error = bound.total();
         Self {
             scene: scene.name.clone(),
-            outcome: if last.error <= accuracy { "met" } else { "not met" },
+            outcome: if error <= accuracy { "met" } else { "not met" },
             accuracy,
-            error: last.error,
+            error,
             discretisation_error: bound.discretisation,
             form_factor_error: bound.form_factors,
             iteration_error: bound.iteration,
-            cells: last.cells,
-            form_factors: last.form_factors,
-            rounds: rounds.into_iter().map(|(_, mesh)| mesh).collect(),
+            patches,
+            form_factors,
+            rounds,
             dark: surfaces.iter().all(Surface::is_dark),
             seconds,
             peak_memory_bytes: memory::peak(),

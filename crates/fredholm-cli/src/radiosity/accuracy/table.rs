@@ -13,7 +13,7 @@ pub fn table(report: &Report) -> String {
 }
 
 fn lines(report: &Report) -> Vec<(&'static str, String)> {
-    let met = if report.is_met() { "" } else { "; NOT MET: no more cells fit" };
+    let met = if report.is_met() { "" } else { "; NOT MET: no more patches fit" };
     let mut lines = vec![
         (
             "error",
@@ -29,10 +29,10 @@ fn lines(report: &Report) -> Vec<(&'static str, String)> {
 }
 
 fn mesh(report: &Report) -> String {
-    let (cells, factors) = (grouped(report.cells as u64), grouped(report.form_factors as u64));
+    let (patches, factors) = (grouped(report.patches as u64), grouped(report.form_factors as u64));
     let rounds = report.rounds.len();
     format!(
-        "{cells} cells with {factors} form factors, after {rounds} round{}",
+        "{patches} patches of degree 2 with {factors} form factors, after {rounds} round{}",
         if rounds == 1 { "" } else { "s" }
     )
 }
