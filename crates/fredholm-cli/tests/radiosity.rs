@@ -211,7 +211,7 @@ fn an_accuracy_is_a_whole_request() {
         }
     }
     let rows = fs::read_to_string(folder.join("p.csv")).unwrap().lines().count();
-    assert_eq!(rows, 1 + 16 * number("patches") as usize);
+    assert_eq!(rows, 1 + 64 * number("patches") as usize);
 }
 
 #[test]

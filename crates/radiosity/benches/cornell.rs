@@ -30,8 +30,9 @@ fn main() {
         let field = solve(&domain, &Request { accuracy, ..Request::default() }, |_| true);
         let seconds = start.elapsed().as_secs_f64();
         let start = Instant::now();
-        let light = radiosities(&field, &texels);
-        (light, field.bound().total(), field.size(), [seconds, start.elapsed().as_secs_f64()])
+        let (bound, size) = (field.bound().total(), field.size());
+        let light = radiosities(&field.for_points(texels.len()), &texels);
+        (light, bound, size, [seconds, start.elapsed().as_secs_f64()])
     };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     let (reference, bound, [patches, _], _) = solved(accuracies[0]);

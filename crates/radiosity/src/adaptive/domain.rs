@@ -1,7 +1,7 @@
 //! What does not change while the mesh is refined: faces, their materials, and what hides what.
 
-use super::links::{Coarseness, Descent};
-use super::space::Space;
+use super::links::{Coarseness, Descent, Link, Looks};
+use super::space::{Element, Space};
 use super::tree::{Node, Tree};
 use crate::form_factor::outlook::{Outlook, Outlooks};
 use crate::form_factor::view::{Seen, View};
@@ -162,6 +162,20 @@ impl<'a, V: Value> Domain<'a, V> {
         let mut all = known;
         all.par_extend(direct);
         all
+    }
+
+    /// What every patch of a tree sees, of which some is known.
+    pub(super) fn looks(&self, tree: &Tree, coarseness: Coarseness<'_>, known: Vec<Looks>) -> Vec<Looks> {
+        let look = |view: &mut View, (node, known): (&Node, Looks)| {
+            let Node { polygon, face, is_patch: true, .. } = node else { return Looks::new() };
+            let from = |(point, known): (DVec3, Vec<Link>)| {
+                let descent = self.descent(tree, coarseness, (*face, point));
+                if known.is_empty() { descent.links(view) } else { descent.further(known, view) }
+            };
+            let known = known.into_iter().chain(std::iter::repeat(Vec::new()));
+            Element::of(polygon).points(polygon).zip(known).map(from).collect()
+        };
+        tree.nodes.par_iter().zip(known).map_init(View::default, look).collect()
     }
 
     /// The irradiance at a point of a face straight from the lights that are points, in W/m².

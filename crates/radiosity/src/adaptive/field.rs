@@ -42,7 +42,7 @@ pub struct Field<'a, V> {
     pub(super) bound: Bound,
 }
 
-/// A leaf of the mesh that the answer stands on: a sixteenth of a patch.
+/// A leaf of the mesh that the answer stands on: a sixty-fourth of a patch.
 #[derive(Clone, Debug)]
 pub struct Part<V> {
     /// Where it is.

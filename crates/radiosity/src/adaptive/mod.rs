@@ -29,6 +29,7 @@
 mod domain;
 mod error;
 mod field;
+mod finish;
 mod links;
 mod refine;
 mod round;

@@ -5,6 +5,7 @@ use super::field::Field;
 use super::links::{Looks, gathered};
 use super::round::Mesh;
 use super::space::{CHECKS, Element, Space};
+use super::tree::Tree;
 use fredholm::value::Value;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -74,9 +75,16 @@ pub(super) fn refined<V: Value>(field: Field<'_, V>, marked: &[u32], accuracy: f
         points.into_iter().map(|point| field.between(before, point)).collect::<Vec<V>>()
     };
     let values = space.patches.par_iter().flat_map_iter(believed).collect();
-    let mut looks = field.looks;
+    let looks = kept(field.looks, &tree, marked);
+    let direct = field.domain.direct_at_leaves(&tree, field.direct);
+    let contraction = field.iteration.contraction;
+    Mesh { tree, space, direct, values, looks, unknown: 0.0, tolerance, contraction }
+}
+
+/// What is still seen after some patches have been cut.
+pub(super) fn kept(mut looks: Vec<Looks>, tree: &Tree, cut: &[u32]) -> Vec<Looks> {
     looks.resize(tree.nodes.len(), Looks::new());
-    for &patch in marked {
+    for &patch in cut {
         let node = tree.node(patch);
         let before = std::mem::take(&mut looks[patch as usize]);
         let checks = before.into_iter().skip(Element::of(&node.polygon).dim());
@@ -84,17 +92,7 @@ pub(super) fn refined<V: Value>(field: Field<'_, V>, marked: &[u32], accuracy: f
             looks[part as usize] = Element::of(&node.polygon).around(check);
         }
     }
-    let direct = field.domain.direct_at_leaves(&tree, field.direct);
-    Mesh {
-        tree,
-        space,
-        direct,
-        values,
-        looks,
-        unknown: 0.0,
-        tolerance,
-        contraction: field.iteration.contraction,
-    }
+    looks
 }
 
 /// The residual in the checks of each patch.

@@ -3,15 +3,13 @@
 use super::domain::Domain;
 use super::error::Bound;
 use super::field::Field;
-use super::links::{Coarseness, Link, Links, Looks};
+use super::links::{Coarseness, Links, Looks};
 use super::refine::{LINKS, residuals, rough};
-use super::space::{Element, Space, average};
+use super::space::{Space, average};
 use super::tree::{Node, Tree};
 use fredholm::relax::{Relaxation, Stop, SuccessiveApproximation, relax};
 use fredholm::system::System;
 use fredholm::value::Value;
-use glam::DVec3;
-use rayon::prelude::*;
 
 /// A mesh to be solved on.
 #[derive(Debug)]
@@ -85,17 +83,7 @@ impl<V: Value> Mesh<V> {
         let variation = self.variation(domain);
         let Self { tree, space, direct, values: guess, looks: known, tolerance, contraction, .. } = self;
         let coarseness = Coarseness::new(&variation, tolerance, accuracy);
-        let look = |view: &mut _, (node, known): (u32, Looks)| {
-            let Node { polygon, face, is_patch: true, .. } = tree.node(node) else { return Looks::new() };
-            let from = |(point, known): (DVec3, Vec<Link>)| {
-                let descent = domain.descent(&tree, coarseness, (*face, point));
-                if known.is_empty() { descent.links(view) } else { descent.further(known, view) }
-            };
-            let known = known.into_iter().chain(std::iter::repeat(Vec::new()));
-            Element::of(polygon).points(polygon).zip(known).map(from).collect()
-        };
-        let nodes = (0..tree.nodes.len() as u32).into_par_iter();
-        let looks: Vec<Looks> = nodes.zip(known).map_init(Default::default, look).collect();
+        let looks = domain.looks(&tree, coarseness, known);
         let operator = Links { tree: &tree, space: &space, looks: &looks };
         let Solved { values, mut iteration } = solved(domain, operator, &direct, &guess, accuracy);
         // From a good start all but the quick part of the error is gone.

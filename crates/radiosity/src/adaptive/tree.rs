@@ -1,5 +1,5 @@
 //! The mesh of the domain as a forest: faces, cut into quarters where the solution asks for it, down to patches, on which
-//! light is a polynomial; below them two more generations, the last of which, leaves, tell apart what is seen of a patch.
+//! light is a polynomial; below them three more generations, the last of which, leaves, tell apart what is seen of a patch.
 
 use crate::form_factor::exchange::FromAfar;
 use crate::patches::inverse_bilinear;
@@ -52,7 +52,9 @@ impl Tree {
     fn make_patch(&mut self, node: u32) {
         self.nodes[node as usize].is_patch = true;
         for quarter in self.quarters(node) {
-            self.quarters(quarter);
+            for sixteenth in self.quarters(quarter) {
+                self.quarters(sixteenth);
+            }
         }
     }
 
@@ -98,9 +100,10 @@ impl Tree {
         (0..self.nodes.len() as u32).filter(|&node| self.node(node).is_patch)
     }
 
-    /// The leaves of a patch, quarter by quarter.
+    /// The leaves of a patch, sixty-four, quarter by quarter.
     pub fn leaves_of(&self, patch: u32) -> impl Iterator<Item = u32> + '_ {
-        self.node(patch).parts.clone().flat_map(|quarter| self.node(quarter).parts.clone())
+        let parts = |node: u32| self.node(node).parts.clone();
+        parts(patch).flat_map(parts).flat_map(parts)
     }
 
     /// The patch of a face that a point lies on, the nearest for a point outside.

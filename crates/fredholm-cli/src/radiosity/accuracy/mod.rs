@@ -52,10 +52,10 @@ pub fn walk<V: Colour>(
     });
     progress.finish();
 
-    let parts = Parts::new(scene, &field);
+    let (parts, bound) = (Parts::new(scene, &field), field.bound());
     let mut files = Vec::new();
     if let Some(output) = picture {
-        let image = timed(&mut seconds.picture, || draw(args, scene, units, (&field, &polygons), &parts));
+        let image = timed(&mut seconds.picture, || draw(args, scene, units, (field, &polygons), &parts));
         files.push(timed(&mut seconds.write, || write_png(output, &image))?);
     }
     if let Some(output) = list {
@@ -66,7 +66,7 @@ pub fn walk<V: Colour>(
     files.extend(json.as_ref().and_then(Json::file));
     seconds.total = start.elapsed().as_secs_f64();
     let means = surfaces(scene, &parts.patches, units, (&parts.radiosity, &parts.irradiance));
-    let report = Report::new(scene, accuracy, &rounds, field.bound(), (units, means), seconds, files);
+    let report = Report::new(scene, accuracy, &rounds, bound, (units, means), seconds, files);
     json::tell(json, &report, &table::table(&report))?;
     Ok(if report.is_met() { Ending::Converged } else { Ending::NotConverged })
 }
@@ -122,14 +122,15 @@ fn draw<V: Colour>(
     args: &Radiosity,
     scene: &Scene<V>,
     units: Units,
-    (field, polygons): (&Field<'_, V>, &[Polygon]),
+    (field, polygons): (Field<'_, V>, &[Polygon]),
     parts: &Parts<V>,
 ) -> RgbImage {
     let visibility = Visibility::new(polygons);
     let view = view_of(args, scene, polygons, &visibility);
     let bar = bar("picture", view.height as u64);
     let row = |done: usize| bar.set_position(done as u64);
-    let sightings = Sightings::new(&view, field, polygons, &visibility, &row);
+    let field = field.for_points(view.width * view.height);
+    let sightings = Sightings::new(&view, &field, polygons, &visibility, &row);
     bar.finish_and_clear();
     let size = (view.width, view.height);
     let map = |values: &[V], number: &dyn Fn(V, V) -> f64, title: &str| {
