@@ -123,12 +123,17 @@ impl<V: Value> Field<'_, V> {
 
     /// D + H at the point itself.
     pub(super) fn gathered(&self, face: u32, point: DVec3, view: &mut View) -> V {
-        let coarseness = Coarseness::new(&self.variation, self.tolerance, self.accuracy);
-        let links: Vec<Link> = self.domain.links(&self.tree, coarseness, (face, point), view);
+        let links = self.links_from(face, point, view);
         let direct = links.iter().fold(self.domain.sent_by_points(face, point), |sum, link| {
             sum + self.domain.emission(self.tree.node(link.node).face) * f64::from(link.factor)
         });
         direct + gathered(&links, &self.radiosity)
+    }
+
+    /// The parts of the scene that a point sees.
+    pub(super) fn links_from(&self, face: u32, point: DVec3, view: &mut View) -> Vec<Link> {
+        let coarseness = Coarseness::new(&self.variation, self.tolerance, self.accuracy);
+        self.domain.links(&self.tree, coarseness, (face, point), view)
     }
 
     /// E + A û − û in the middle of a patch, which is the centre of no cell, in W/m².

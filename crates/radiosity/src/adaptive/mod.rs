@@ -25,6 +25,7 @@
 //! # Ok::<(), radiosity::adaptive::TooManyFaces>(())
 //! ```
 
+mod curved;
 mod domain;
 mod error;
 mod field;
