@@ -1,11 +1,15 @@
 //! Planar convex polygons of three or four vertices: what scenes, patches and occluders are made of.
 
+mod normals;
+
+pub use normals::NormalFault;
+
 use glam::DVec3;
 
 /// A planar convex triangle or quadrilateral, in metres.
 ///
 /// It has a front: the side from which its vertices run counter-clockwise. Only the front emits and reflects;
-/// both sides block light.
+/// both sides block light. In pictures it may stand for a piece of a curved surface: [`Polygon::with_normals`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polygon {
     vertices: [DVec3; 4],
@@ -13,6 +17,8 @@ pub struct Polygon {
     normal: DVec3,
     area: f64,
     centroid: DVec3,
+    /// Unit normals at the vertices of the curved surface that it stands for, if it does.
+    normals: Option<Box<[DVec3; 4]>>,
 }
 
 impl Polygon {
@@ -34,7 +40,7 @@ impl Polygon {
         let normal = doubled.normalize_or_zero();
         let (w1, w2) = (first.dot(normal), second.dot(normal));
         let centroid = (w1 * (a + b + c) + w2 * (a + c + d)) / (3.0 * (w1 + w2));
-        Self { vertices, sides, normal, area: 0.5 * doubled.length(), centroid }
+        Self { vertices, sides, normal, area: 0.5 * doubled.length(), centroid, normals: None }
     }
 
     /// The vertices, counter-clockwise seen from the front.

@@ -67,6 +67,9 @@ fn faces() {
             face("v 1 2 nan", "a.obj:7", &["NaN is not a finite number"]),
             face("v 1 2 -inf", "a.obj:7", &["-inf is not a finite number"]),
             face("v 1 2 1e999", "a.obj:7", &["inf is not a finite number"]),
+            face("f 1//x 2 3", "a.obj:7", &["`1//x` is not a corner", "normal"]),
+            face("vn 0 1", "a.obj:7", &["`vn 0 1` is not a normal", "three numbers"]),
+            face("vn 0 1 up", "a.obj:7", &["`up` is not a number"]),
             face("", "a.obj", &["no faces"]),
         ],
     );

@@ -163,6 +163,10 @@ pub struct Radiosity {
     #[arg(long, value_enum, value_name = "QUANTITY", help_heading = "Picture")]
     pub map: Option<Quantity>,
 
+    /// Draw every polygon flat, also where the mesh has the normals of a curved surface
+    #[arg(long, conflicts_with = "thermal", help_heading = "Picture")]
+    pub flat: bool,
+
     /// Pixels across and down
     #[arg(long, value_name = "WxH", value_parser = size, default_value = "640x640", help_heading = "Picture")]
     pub size: Size,

@@ -54,8 +54,11 @@ pub fn command(args: &Radiosity) -> Result<Ending> {
         (None, Bands::Rgb) => walk(&cornell_box(), watts, &unsaid, args, start),
         (None, Bands::Spectral) => walk(&cornell_box_spectral(), watts, &unsaid, args, start),
         (Some(file), Bands::Rgb) => {
-            let loaded = load_in(file, args.photometric.then_some(Units::Photometric))?;
+            let mut loaded = load_in(file, args.photometric.then_some(Units::Photometric))?;
             loaded.warnings.iter().try_for_each(warn)?;
+            if args.flat {
+                loaded.scene = loaded.scene.flat();
+            }
             match loaded.units {
                 Units::Photometric => walk(&loaded.grey(), loaded.units, &loaded.solve, args, start),
                 Units::Radiometric => walk(&loaded.scene, loaded.units, &loaded.solve, args, start),

@@ -59,6 +59,8 @@ pub struct Report {
     pub dark: bool,
     /// How many point lights the scene has.
     pub point_lights: usize,
+    /// How many polygons are drawn with the normals of a curved surface; the light on them is solved as if they were flat.
+    pub smooth_normals: usize,
     /// Form factors computed.
     pub form_factors: u64,
     /// Rays cast for them.
@@ -177,6 +179,7 @@ impl Report {
             accuracy: options.accuracy,
             dark: solution.irradiance.iter().all(|h| h.magnitude() == 0.0),
             point_lights: domain.scene.lights.len(),
+            smooth_normals: domain.scene.curved_polygons(),
             form_factors: solution.form_factors,
             rays: solution.rays,
             seconds,

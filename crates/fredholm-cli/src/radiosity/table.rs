@@ -55,8 +55,18 @@ fn lines(report: &Report) -> Vec<(&'static str, String)> {
     if report.point_lights > 0 {
         lines.insert(0, ("point lights", grouped(report.point_lights as u64)));
     }
+    lines.extend(smooth_normals(report.smooth_normals));
     lines.extend(last(report.peak_memory_bytes, report.dark, &report.seconds, &report.files));
     lines
+}
+
+/// How many polygons have them, if any.
+pub fn smooth_normals(count: usize) -> Option<(&'static str, String)> {
+    let words = format!(
+        "of {} polygons, in the picture: the light on them is solved as on flat ones",
+        grouped(count as u64)
+    );
+    (count > 0).then_some(("normals", words))
 }
 
 /// What every table of light ends with; a scene in which no surface is lit is told.

@@ -8,7 +8,9 @@ use crate::form_factor::view::{Seen, View};
 use crate::kernel::SurfacePoint;
 use crate::lights;
 use crate::polygon::Polygon;
+use crate::reconstruct::Lamps;
 use crate::scene::{PointLight, Scene, Surface};
+use crate::visibility::Visibility;
 use fredholm::value::Value;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -91,6 +93,22 @@ impl<'a, V: Value> Domain<'a, V> {
             space.range(k).map(move |_| rho)
         };
         space.patches.iter().enumerate().flat_map(of_patch).collect()
+    }
+
+    /// The lamps that are looked at one by one, for rays.
+    pub(super) fn lamps(&self) -> Lamps<'_, V> {
+        let lamp = |&k: &u32| (&self.faces[k as usize], self.emission(k));
+        Lamps::of(self.lamps.iter().map(lamp).collect(), self.rays())
+    }
+
+    /// What casts rays between the faces.
+    pub(super) fn rays(&self) -> &Visibility {
+        self.all.rays()
+    }
+
+    /// The lights that are points.
+    pub(super) fn points(&self) -> &[PointLight<V>] {
+        &self.points
     }
 
     /// The longest side of the box around the faces, in metres.

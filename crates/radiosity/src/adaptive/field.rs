@@ -2,7 +2,7 @@
 
 use super::domain::Domain;
 use super::error::Bound;
-use super::links::{Coarseness, Looks, gathered};
+use super::links::{Coarseness, Link, Looks, gathered};
 use super::refine::square;
 use super::round::Iteration;
 use super::space::{CHECKS, Space};
@@ -126,9 +126,13 @@ impl<V: Value> Field<'_, V> {
 
     /// H at the point itself.
     pub(super) fn gathered(&self, face: u32, point: DVec3, view: &mut View) -> V {
+        gathered(&self.links_from(face, point, view), &self.sent)
+    }
+
+    /// The parts of the scene that a point sees.
+    pub(super) fn links_from(&self, face: u32, point: DVec3, view: &mut View) -> Vec<Link> {
         let coarseness = Coarseness::new(&self.variation, self.tolerance, self.accuracy);
-        let links = self.domain.descent(&self.tree, coarseness, (face, point)).links(view);
-        gathered(&links, &self.sent)
+        self.domain.descent(&self.tree, coarseness, (face, point)).links(view)
     }
 
     /// H on a patch, as the polynomial has it.

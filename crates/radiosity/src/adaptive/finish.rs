@@ -27,9 +27,10 @@ impl<V: Value> Field<'_, V> {
         }
     }
 
-    /// Patches that are rough, and not because something stands on them.
+    /// Patches that are rough, but not because something stands on them, nor stand for a curve, whose light is no polynomial.
     fn cuttable(&self) -> impl Iterator<Item = u32> + '_ {
-        let patches = self.space.patches.iter().copied();
+        let is_flat = |patch: &u32| !self.domain.faces()[self.tree.node(*patch).face as usize].is_curved();
+        let patches = self.space.patches.iter().copied().filter(is_flat);
         patches.filter(|&patch| self.rough[patch as usize] && !self.space.is_holed(patch))
     }
 

@@ -26,6 +26,7 @@
 //! # Ok::<(), radiosity::adaptive::TooManyFaces>(())
 //! ```
 
+mod curved;
 mod domain;
 mod error;
 mod field;

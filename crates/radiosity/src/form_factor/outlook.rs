@@ -98,10 +98,14 @@ impl<'a> Outlooks<'a> {
             touch: self.touch,
             rays: self.rays.clone(),
         };
+        // Digits that are rounded put some corners of a convex body before its faces, but it hides nothing from any of them.
+        let own =
+            self.blockers.body_of_face[face].filter(|&body| self.blockers.solids[body as usize].is_some());
         let (mut known, mut found) = (HashMap::new(), Vec::new());
         for (other, target) in self.faces.iter().enumerate() {
             if other != face && may_see(outer, target) {
                 self.screens.between([&self.ends[face], &self.ends[other]], &mut found);
+                found.retain(|&id| own.is_none() || self.blockers.body[id as usize] != own);
                 let keys: Vec<Key> = found.iter().flat_map(|&id| self.names(id, other)).collect();
                 if keys.len() > MANY {
                     outlook.seen.push((other as u32, Hiders::Many));
@@ -140,7 +144,11 @@ impl<'a> Outlooks<'a> {
             let whole = in_front(self.blockers.polygons[id as usize].vertices()) && solid.is_none();
             (id, if whole { None } else { Some(target) })
         };
-        self.blockers.sides(id).map(side).collect()
+        // A face cut in two by rounded digits is one blocker, whose halves are a little before each other.
+        let rises = |vertices: &[DVec3]| vertices.iter().any(|v| face.height_of(*v) > self.touch);
+        let sides =
+            self.blockers.sides(id).filter(|&id| rises(self.blockers.polygons[id as usize].vertices()));
+        sides.map(side).collect()
     }
 
     fn hider(&self, face: usize, (id, target): Key) -> Hider {

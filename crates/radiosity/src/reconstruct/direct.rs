@@ -37,6 +37,11 @@ impl<'a, V: Value> Lamps<'a, V> {
         (lamps.len() <= MOST_LAMPS).then_some(Self { lamps, visibility })
     }
 
+    /// These polygons with their exitance, in W/m², as lamps.
+    pub(crate) fn of(lamps: Vec<(&'a Polygon, V)>, visibility: &'a Visibility) -> Self {
+        Self { lamps, visibility }
+    }
+
     /// The irradiance from the lamps, in W/m².
     pub fn irradiance(&self, site: &Site) -> V {
         self.sum(site, |lamp| self.visible_share(site, lamp))
@@ -72,7 +77,7 @@ impl<'a, V: Value> Lamps<'a, V> {
             let y = SurfacePoint { position: source, normal: lamp.normal() };
             let weight = unoccluded(&x, &y) * lamp.density(s, t);
             all += weight;
-            if weight > 0.0 && self.visibility.unoccluded(site.point, source) {
+            if weight > 0.0 && self.visibility.is_clear(site.point, source) {
                 arrived += weight;
             }
         }

@@ -5,11 +5,15 @@
 //! form factor times the share of the lamp that is not hidden ([`Lamps`]), and of point lights
 //! I cosθ/r² ([`crate::lights`]). Light that patches reflect is smooth:
 //! rays in a cosine distribution find it ([`Gather`]).
+//!
+//! Where a polygon stands for a piece of a curved surface both are found about the normal of that, for pictures alone.
 
+mod curved;
 mod direct;
 mod gather;
 mod lattice;
 
+pub(crate) use curved::on_surface;
 pub use direct::Lamps;
 pub use gather::{Gather, Gathered};
 pub use lattice::Rotation;
@@ -22,7 +26,7 @@ use glam::DVec3;
 pub struct Site {
     /// The point, in metres, just off the surface so that its rays do not start inside it.
     pub point: DVec3,
-    /// The unit normal of the front.
+    /// The unit normal of the front, or of the curved surface there.
     pub normal: DVec3,
     /// How the sample pattern is rotated here.
     pub rotation: Rotation,

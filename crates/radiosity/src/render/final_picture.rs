@@ -1,9 +1,10 @@
 //! L(x) = (E + ρ H)/π at every pixel, with the irradiance H found anew there: direct light exactly, indirect light
 //! by a final gather.
 
+use crate::kernel::SurfacePoint;
 use crate::patches::Patches;
 use crate::polygon::Polygon;
-use crate::reconstruct::{Gather, Lamps, Rotation, Site};
+use crate::reconstruct::{Gather, Lamps, Rotation, Site, on_surface};
 use crate::render::colour::Colour;
 use crate::render::fragments::{Fragment, Fragments};
 use crate::render::picture::Picture;
@@ -91,9 +92,10 @@ impl<'a, V: Colour> Lighting<'a, V> {
     /// What the fragment of a pixel sends to the camera, as radiance.
     fn of(&self, fragment: &Fragment, pixel: usize) -> Lit {
         let surface = self.surfaces[fragment.shown as usize];
-        let normal = self.gather.polygons[fragment.shown as usize].normal();
-        let site =
-            Site { point: fragment.point + normal * self.gather.lift, normal, rotation: Rotation::of(pixel) };
+        let Gather { polygons, visibility, lift, .. } = self.gather;
+        let SurfacePoint { position, normal } =
+            on_surface(&polygons[fragment.shown as usize], fragment.point, visibility, lift);
+        let site = Site { point: position, normal, rotation: Rotation::of(pixel) };
         let direct = self.gather.direct(&site);
         let gathered = self.gather.at(&site);
         let radiance = |exitance: V| exitance.to_rgb() * (1.0 / PI);
@@ -101,6 +103,7 @@ impl<'a, V: Colour> Lighting<'a, V> {
             direct: radiance(surface.emission + surface.reflectance * direct),
             indirect: radiance(surface.reflectance * gathered.irradiance),
             openness: gathered.openness,
+            normal,
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The picture of a light that is known at every point: one look at each thing that a pixel shows.
+//! The picture of a light that is known at every point: one look at each thing that a pixel shows, curved surfaces as such.
 
 use crate::adaptive::Field;
 use crate::polygon::Polygon;
@@ -36,7 +36,7 @@ impl<V: Value> Sightings<V> {
         let row = |y: usize| {
             let first = fragments.of_pixel(y * view.width).start;
             let end = fragments.of_pixel((y + 1) * view.width - 1).end;
-            let light = field.light(fragments.all[first..end].iter().map(|f| (f.shown, f.point)));
+            let light = field.seen(fragments.all[first..end].iter().map(|f| (f.shown, f.point)));
             progress(done.fetch_add(1, Ordering::Relaxed) + 1);
             light
         };

@@ -5,6 +5,7 @@ use super::cut::cut;
 use super::error::{Error, Place, Problem, Spot, Warning, listed};
 use super::face::{self, Face};
 use super::material::Material;
+use super::normals::{self, LeftFlat};
 use super::vs3::Control;
 use crate::polygon::Polygon;
 use fredholm::value::Rgb;
@@ -24,6 +25,7 @@ pub(super) struct Mesh {
     pub warnings: Vec<Warning>,
     pub control: Option<Control>,
     left_out: LeftOut,
+    left_flat: LeftFlat,
 }
 
 /// Faces with one name and one material.
@@ -47,8 +49,9 @@ struct LeftOut {
 
 impl Mesh {
     pub fn new(file: &Path) -> Self {
-        let (title, groups, materials, warnings, control, left_out) = Default::default();
-        Self { file: file.into(), title, groups, materials, warnings, control, left_out }
+        let (title, groups, materials, warnings, control) = Default::default();
+        let (left_out, left_flat) = Default::default();
+        Self { file: file.into(), title, groups, materials, warnings, control, left_out, left_flat }
     }
 
     /// Begins a group of a format without materials: a scene file can give it one by the group's name.
@@ -59,10 +62,15 @@ impl Mesh {
     }
 
     /// Adds a face of a file that only programs write, to the last group. Such files are full of triangles without
-    /// area, which neither emit nor hide anything: they are counted and left out.
-    pub fn push_exported(&mut self, corners: &[DVec3], spot: Spot) -> Result<(), Error> {
-        match (cut(corners), self.groups.last_mut()) {
-            (Ok(polygons), Some(group)) => group.push(polygons, spot),
+    /// area, which neither emit nor hide anything: they are counted and left out. `normals` are those of its corners.
+    pub fn push_exported(
+        &mut self,
+        corners: &[DVec3],
+        normals: &[Option<DVec3>],
+        spot: Spot,
+    ) -> Result<(), Error> {
+        match (cut(corners), self.groups.len().checked_sub(1)) {
+            (Ok(polygons), Some(group)) => self.push(group, polygons, (corners, normals), spot),
             (Ok(_), None) => {}
             (Err(problem), _) if is_without_area(&problem, corners.len()) => {
                 self.left_out.count += 1;
@@ -73,6 +81,21 @@ impl Mesh {
         Ok(())
     }
 
+    /// Adds a face to the group of a number, in the polygons that it was cut in, which get the normals of its corners.
+    pub fn push(
+        &mut self,
+        group: usize,
+        polygons: Vec<Polygon>,
+        (corners, normals): (&[DVec3], &[Option<DVec3>]),
+        spot: Spot,
+    ) {
+        let (polygons, fault) = normals::curved(polygons, corners, normals);
+        if let Some(fault) = fault {
+            self.left_flat.add(fault, spot);
+        }
+        self.groups[group].push(polygons, spot);
+    }
+
     pub fn place(&self, spot: Spot) -> Place {
         Place::spot(&self.file, spot)
     }
@@ -81,9 +104,12 @@ impl Mesh {
         self.warnings.push(Warning { place, message });
     }
 
-    /// The mesh, once all is read: without groups that have no face, and with a word on what was left out.
+    /// The mesh, once all is read: without groups that have no face, and with a word on what was left out or stays flat.
     pub fn finished(mut self) -> Self {
         self.groups.retain(|group| !group.faces.is_empty());
+        for (spot, message) in std::mem::take(&mut self.left_flat).told() {
+            self.warn(self.place(spot), message);
+        }
         if let LeftOut { count, first: Some(first) } = self.left_out {
             let (faces, are) = if count == 1 { ("face", "is") } else { ("faces", "are") };
             let message = format!(

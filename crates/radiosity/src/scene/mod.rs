@@ -23,6 +23,7 @@ mod load;
 mod material;
 mod mesh;
 mod mtl;
+mod normals;
 mod obj;
 mod photometric;
 mod ply;
@@ -77,6 +78,19 @@ impl<V> Scene<V> {
     /// All polygons, surface by surface: their numbers are those that patches and visibility name them by.
     pub fn polygons(&self) -> Vec<Polygon> {
         self.surfaces.iter().flat_map(|surface| surface.polygons.iter().cloned()).collect()
+    }
+
+    /// How many polygons stand for pieces of curved surfaces, with normals of their own at the vertices.
+    pub fn curved_polygons(&self) -> usize {
+        self.surfaces.iter().flat_map(|surface| &surface.polygons).filter(|p| p.is_curved()).count()
+    }
+
+    /// The same with every polygon as flat in pictures as it is.
+    pub fn flat(mut self) -> Self {
+        for surface in &mut self.surfaces {
+            surface.polygons = std::mem::take(&mut surface.polygons).into_iter().map(Polygon::flat).collect();
+        }
+        self
     }
 }
 

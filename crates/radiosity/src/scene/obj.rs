@@ -1,8 +1,8 @@
 //! The OBJ reader: faces with any number of corners, of groups and materials, each error with its line.
 //!
-//! Read are `v`, `f` (`v`, `v/vt`, `v//vn`, `v/vt/vn`; negative indices count backwards), `o`, `g`, `usemtl`,
-//! `mtllib`, comments and lines continued by `\`; the rest (`vt`, `vn`, `s`, `l`, `p`, …) is passed over. A face is
-//! one-sided: its front is where its corners run counter-clockwise.
+//! Read are `v`, `vn`, `f` (`v`, `v/vt`, `v//vn`, `v/vt/vn`; negative indices count backwards), `o`, `g`, `usemtl`,
+//! `mtllib`, comments and lines continued by `\`; the rest (`vt`, `s`, `l`, `p`, …) is passed over. A face is
+//! one-sided: its front is where its corners run counter-clockwise, whatever its normals say.
 
 use super::cut::cut;
 use super::error::{Error, Place, Problem, Spot};
@@ -19,16 +19,17 @@ pub(super) fn read(file: &Path, metres: f64, named_at: &Place) -> Result<Mesh, E
 }
 
 fn parse(file: &Path, text: &str, metres: f64) -> Result<Mesh, Error> {
-    let (vertices, current, known) = Default::default();
-    let mut reader = Reader { file, metres, vertices, current, known, mesh: Mesh::new(file) };
+    let (vertices, normals, current, known) = Default::default();
+    let mut reader = Reader { file, metres, vertices, normals, current, known, mesh: Mesh::new(file) };
     text::statements(text).try_for_each(|statement| reader.take(&statement))?;
-    Ok(reader.mesh)
+    Ok(reader.mesh.finished())
 }
 
 struct Reader<'a> {
     file: &'a Path,
     metres: f64,
     vertices: Vec<DVec3>,
+    normals: Vec<DVec3>,
     current: State,
     /// The group of each name and material so far.
     known: BTreeMap<(Option<String>, Option<String>), usize>,
@@ -50,11 +51,14 @@ impl Reader<'_> {
         let at = |problem: Problem| problem.at(place());
         match statement.split() {
             ("v", rest) => self.vertices.push(vertex(rest).map_err(at)? * self.metres),
+            ("vn", rest) => self.normals.push(normal(rest).map_err(at)?),
             ("f", rest) => {
-                let corners = rest.split_whitespace().map(|word| corner(word, &self.vertices));
+                let corners = rest.split_whitespace().map(|word| self.corner(word));
                 let corners = corners.collect::<Result<Vec<_>, _>>().map_err(at)?;
+                let (corners, normals): (Vec<_>, Vec<_>) = corners.into_iter().unzip();
                 let polygons = cut(&corners).map_err(at)?;
-                self.group().push(polygons, Spot::Line(statement.line));
+                let group = self.group();
+                self.mesh.push(group, polygons, (&corners, &normals), Spot::Line(statement.line));
             }
             ("o" | "g", rest) => {
                 let name = (!rest.is_empty()).then(|| rest.to_owned());
@@ -70,18 +74,35 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// The group that the next face belongs to.
-    fn group(&mut self) -> &mut Group {
+    /// The vertex of a corner `v`, `v/vt`, `v//vn` or `v/vt/vn`, and its normal if there is one of that number.
+    fn corner(&self, word: &str) -> Result<(DVec3, Option<DVec3>), Problem> {
+        let mut numbers = word.split('/');
+        let index = |number: &str| {
+            number.parse::<i64>().map_err(|_| {
+                Problem::Malformed(format!(
+                    "`{word}` is not a corner of a face; expected the numbers of a vertex and perhaps of its texture and \
+                     normal: `7`, `7/1`, `7//1` or `7/1/1`"
+                ))
+            })
+        };
+        let vertex = index(numbers.next().unwrap_or(word))?;
+        let count = self.vertices.len();
+        let position = numbered(&self.vertices, vertex).ok_or(Problem::Index { index: vertex, count })?;
+        let normal = numbers.nth(1).filter(|number| !number.is_empty()).map(index).transpose()?;
+        Ok((position, normal.and_then(|index| numbered(&self.normals, index))))
+    }
+
+    /// The number of the group that the next face belongs to.
+    fn group(&mut self) -> usize {
         let State { name, material, group } = &mut self.current;
         let groups = &mut self.mesh.groups;
-        let index = *group.get_or_insert_with(|| {
+        *group.get_or_insert_with(|| {
             let key = (name.clone(), material.as_ref().map(|material| material.name.clone()));
             *self.known.entry(key).or_insert_with(|| {
                 groups.push(Group::new(name.clone(), material.clone()));
                 groups.len() - 1
             })
-        });
-        &mut groups[index]
+        })
     }
 
     /// One file whose name may hold spaces, as most programs write it, or several, as the format has it.
@@ -108,20 +129,22 @@ fn vertex(rest: &str) -> Result<DVec3, Problem> {
     Ok(DVec3::new(coordinate()?, coordinate()?, coordinate()?))
 }
 
-/// The vertex of a corner `v`, `v/vt`, `v//vn` or `v/vt/vn`.
-fn corner(word: &str, vertices: &[DVec3]) -> Result<DVec3, Problem> {
-    let first = word.split('/').next().unwrap_or(word);
-    let index: i64 = first.parse().map_err(|_| {
-        Problem::Malformed(format!(
-            "`{word}` is not a corner of a face; expected a vertex index: `7`, `7/1` or `7//1`"
-        ))
-    })?;
-    let from_start = usize::try_from(index).ok().and_then(|index| index.checked_sub(1));
-    let from_end =
-        || usize::try_from(index.unsigned_abs()).ok().and_then(|back| vertices.len().checked_sub(back));
-    let position = if index < 0 { from_end() } else { from_start };
-    let vertex = position.and_then(|position| vertices.get(position));
-    vertex.copied().ok_or(Problem::Index { index, count: vertices.len() })
+/// `x y z`, of any length; what has no direction is told of the faces that it is used for.
+fn normal(rest: &str) -> Result<DVec3, Problem> {
+    let words: Vec<_> = rest.split_whitespace().collect();
+    match words[..] {
+        [x, y, z] => Ok(DVec3::new(text::number(x)?, text::number(y)?, text::number(z)?)),
+        _ => Err(Problem::Malformed(format!(
+            "`vn {rest}` is not a normal; expected three numbers: `vn 0 0 1`"
+        ))),
+    }
+}
+
+/// What an index names, counted from 1, or backwards from −1.
+fn numbered(list: &[DVec3], index: i64) -> Option<DVec3> {
+    let number = usize::try_from(index.unsigned_abs()).ok()?;
+    let position = if index < 0 { list.len().checked_sub(number)? } else { number.checked_sub(1)? };
+    list.get(position).copied()
 }
 
 #[cfg(test)]

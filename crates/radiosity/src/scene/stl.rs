@@ -54,7 +54,7 @@ fn binary(file: &Path, bytes: &[u8], metres: f64) -> Result<Mesh, Error> {
             text::finite(value).map_err(|problem| problem.at(mesh.place(spot)))?;
         }
         normals.compare(normal, corners, spot);
-        mesh.push_exported(&corners.map(|corner| corner * metres), spot)?;
+        mesh.push_exported(&corners.map(|corner| corner * metres), &[], spot)?;
     }
     normals.tell(&mut mesh);
     Ok(mesh)
@@ -230,7 +230,7 @@ impl Reader {
             return Err(Problem::Malformed(problem).at(self.mesh.place(spot)));
         };
         self.normals.compare(self.facet.normal, [a, b, c], spot);
-        self.mesh.push_exported(&[a, b, c].map(|corner| corner * self.metres), spot)
+        self.mesh.push_exported(&[a, b, c].map(|corner| corner * self.metres), &[], spot)
     }
 }
 

@@ -92,6 +92,18 @@ impl Visibility {
         query.found
     }
 
+    /// Whether no polygon at all cuts the open segment from s to t, wherever these are: beyond the walls too.
+    pub fn is_clear(&self, s: DVec3, t: DVec3) -> bool {
+        let (s, t) = (self.frame.point(s), self.frame.point(t));
+        let Some(ray) = Ray::new(s, t) else { return true };
+        let mut query = Blocker { facets: &self.facets, s, t, ray, found: None };
+        self.occluders.walk(&mut query);
+        if query.found.is_none() {
+            self.walls.walk(&mut query);
+        }
+        query.found.is_none()
+    }
+
     /// The first polygon, seen from either side, that a ray meets; `direction` is a unit vector.
     pub fn nearest(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
         let s = self.frame.point(origin);

@@ -7,6 +7,7 @@ mod errors;
 mod examined;
 mod files;
 mod mutations;
+mod normals;
 mod view3d;
 mod write;
 

@@ -143,6 +143,10 @@ fn broken_files_are_refused_or_make_sense() {
         b"F 3a\nS 1 R 0 0 .5 a\n0 0 0 0 90 3 3\nS 2 q 0 1 .5 b\n0 0 0 180 0\n0 0 1 0 1 1 0 1\nE\n";
     let mut files = every_way(&cube());
     files.extend(every_way(&triangulated(&cube())));
+    files.extend([
+        ("normals.obj", crate::normals::obj().into_bytes()),
+        ("normals.ply", crate::normals::ply(true)),
+    ]);
     files.extend([("parts.vs3", extra.to_vec()), ("planes.vs3", planes.to_vec())]);
     let (mut accepted, mut random) = (0, Random(1));
     for (kind, (name, bytes)) in files.iter().enumerate() {

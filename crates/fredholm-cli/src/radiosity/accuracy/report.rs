@@ -34,6 +34,8 @@ pub struct Report {
     pub rounds: Vec<Mesh>,
     /// Whether no light at all reaches any surface.
     pub dark: bool,
+    /// How many polygons are drawn with the normals of a curved surface; the light on them is solved as if they were flat.
+    pub smooth_normals: usize,
     /// Where the time went.
     pub seconds: Seconds,
     /// The most memory used at once.
@@ -84,6 +86,7 @@ impl Report {
             patches,
             form_factors,
             rounds,
+            smooth_normals: scene.curved_polygons(),
             dark: surfaces.iter().all(Surface::is_dark),
             seconds,
             peak_memory_bytes: memory::peak(),

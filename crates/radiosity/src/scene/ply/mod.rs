@@ -1,8 +1,9 @@
 //! The PLY reader: faces with any number of corners, in text or in binary of either byte order; one surface.
 //!
-//! Read are the properties `x`, `y`, `z` of the element `vertex`, of any type, and the list `vertex_indices` or
-//! `vertex_index` of the element `face`; other properties and elements are passed over. The surface is called after
-//! the file, and a material can be given to that name. The front is where a face's corners run counter-clockwise.
+//! Read are the properties `x`, `y`, `z` of the element `vertex`, of any type, with its normal `nx`, `ny`, `nz` if it has
+//! one, and the list `vertex_indices` or `vertex_index` of the element `face`; other properties and elements are passed
+//! over. The surface is called after the file, and a material can be given to that name. The front is where a face's
+//! corners run counter-clockwise.
 //!
 //! Nothing is allocated because a header counts it: what is kept has been read.
 
@@ -31,8 +32,12 @@ pub(super) fn read(file: &Path, metres: f64, named_at: &Place) -> Result<Mesh, E
     }
     mesh.begin(&text::stem(file));
     for (range, spot) in &found.faces {
-        let corners = found.corners(range).map_err(|problem| problem.at(mesh.place(*spot)))?;
-        mesh.push_exported(&corners, *spot)?;
+        let at = |problem: Problem| problem.at(mesh.place(*spot));
+        let positions = found.indices[range.clone()].iter().map(|index| found.position(*index));
+        let positions = positions.collect::<Result<Vec<_>, _>>().map_err(at)?;
+        let corners: Vec<DVec3> = positions.iter().map(|&k| found.vertices[k]).collect();
+        let normals: Vec<Option<DVec3>> = positions.iter().map(|&k| found.normals.get(k).copied()).collect();
+        mesh.push_exported(&corners, &normals, *spot)?;
     }
     Ok(mesh.finished())
 }
@@ -41,6 +46,8 @@ pub(super) fn read(file: &Path, metres: f64, named_at: &Place) -> Result<Mesh, E
 #[derive(Default)]
 struct Found {
     vertices: Vec<DVec3>,
+    /// Of each vertex, or none.
+    normals: Vec<DVec3>,
     /// The vertices of all faces, face by face.
     indices: Vec<f64>,
     faces: Vec<(Range<usize>, Spot)>,
@@ -70,15 +77,21 @@ impl Found {
         body: &mut Body<'_>,
         metres: f64,
     ) -> Result<(), Misplaced> {
-        let axes = ["x", "y", "z"].map(|axis| element.position(|p| p.name == axis && p.length.is_none()));
-        let [Some(x), Some(y), Some(z)] = axes else {
+        let numbers = |names: [&str; 3]| {
+            let [x, y, z] = names.map(|name| element.position(|p| p.name == name && p.length.is_none()));
+            Some([x?, y?, z?])
+        };
+        let Some(position) = numbers(["x", "y", "z"]) else {
             let problem = "the vertices have no numbers `x`, `y` and `z`; export the mesh with its positions";
             return Err((Problem::Malformed(problem.to_owned()), Spot::Line(element.line)));
         };
+        let normal = numbers(["nx", "ny", "nz"]);
         body.each(element, |instance, _| {
-            let coordinate = |property| text::finite(instance.number(property));
-            let point = DVec3::new(coordinate(x)?, coordinate(y)?, coordinate(z)?);
+            let point = DVec3::from(position.map(|property| instance.number(property)));
+            point.to_array().into_iter().try_for_each(|c| text::finite(c).map(|_| ()))?;
             self.vertices.push(point * metres);
+            self.normals
+                .extend(normal.map(|axes| DVec3::from(axes.map(|property| instance.number(property)))));
             Ok(())
         })
     }
@@ -97,18 +110,16 @@ impl Found {
         })
     }
 
-    fn corners(&self, range: &Range<usize>) -> Result<Vec<DVec3>, Problem> {
-        let corner = |&index: &f64| {
-            // Beyond the end saturates, and a negative index or a fraction does not come back the same.
-            let position = index as usize;
-            let vertex = self.vertices.get(position).filter(|_| position as f64 == index);
-            vertex.copied().ok_or_else(|| {
-                Problem::Malformed(format!(
-                    "vertex {index} does not exist: there are {} vertices, counted from 0",
-                    self.vertices.len()
-                ))
-            })
-        };
-        self.indices[range.clone()].iter().map(corner).collect()
+    /// The vertex of an index as a position in the list of all.
+    fn position(&self, index: f64) -> Result<usize, Problem> {
+        // Beyond the end saturates, and a negative index or a fraction does not come back the same.
+        let position = index as usize;
+        if position as f64 == index && position < self.vertices.len() {
+            return Ok(position);
+        }
+        Err(Problem::Malformed(format!(
+            "vertex {index} does not exist: there are {} vertices, counted from 0",
+            self.vertices.len()
+        )))
     }
 }

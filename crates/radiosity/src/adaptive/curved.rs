@@ -1,0 +1,81 @@
+//! û(x) about the normal n of the curved surface that a face stands for: E + ρ (D(x′, n) + Σ_links F u F₀(x, n)/F₀(x)).
+//!
+//! The links of x are those of the flat face, with what hides what; F₀, Lambert's factor with nothing in between, says how much
+//! more or less of each arrives about n. Nothing comes from below the horizon of the face, nor from below that of the curve;
+//! the sliver of the sky between the two, a fiftieth of its light where they meet at 16°, is taken to be as bright as the
+//! rest, or the edges of faces would be dark. Straight from lamps light comes to x′ on the curve itself, by rays: a lamp
+//! behind the plane of a face may well shine on the curve.
+
+use super::field::Field;
+use crate::form_factor::lambert::point_to_polygon;
+use crate::form_factor::view::View;
+use crate::kernel::SurfacePoint;
+use crate::lights;
+use crate::polygon::Polygon;
+use crate::reconstruct::{Lamps, Rotation, Site, on_surface};
+use fredholm::value::Value;
+use glam::DVec3;
+
+/// How far the ends of rays are off the surface, as a part of the scene.
+const LIFT: f64 = 1e-7;
+
+/// What goes from point to point.
+struct Look<'a, V> {
+    lamps: Lamps<'a, V>,
+    lift: f64,
+    view: View,
+}
+
+impl<V: Value> Field<'_, V> {
+    /// The radiosity and the irradiance at points of faces as a picture shows them, in W/m²: [`Field::light`], but about the
+    /// smooth normal where a face stands for a piece of a curved surface ([`Polygon::with_normals`]).
+    pub fn seen(&self, points: impl Iterator<Item = (u32, DVec3)>) -> Vec<[V; 2]> {
+        let domain = self.domain;
+        let mut look = Look { lamps: domain.lamps(), lift: LIFT * domain.extent(), view: View::default() };
+        let at = |(face, point): (u32, DVec3)| {
+            let irradiance = if domain.faces()[face as usize].is_curved() {
+                self.irradiance_on_curve(face, point, &mut look)
+            } else {
+                self.irradiance_with(face, point, &mut look.view)
+            };
+            [domain.emission(face) + domain.reflectance(face) * irradiance, irradiance]
+        };
+        points.map(at).collect()
+    }
+
+    fn irradiance_on_curve(&self, face: u32, point: DVec3, look: &mut Look<'_, V>) -> V {
+        let (domain, flat) = (self.domain, &self.domain.faces()[face as usize]);
+        if domain.is_buried(face, point) {
+            return V::splat(0.0);
+        }
+        let at = on_surface(flat, point, domain.rays(), look.lift);
+        let bits = point.to_array().iter().fold(0, |bits, c| bits ^ c.to_bits() as usize);
+        let site = Site { point: at.position, normal: at.normal, rotation: Rotation::of(bits) };
+        let direct = look.lamps.irradiance(&site) + lights::irradiance(domain.points(), domain.rays(), &at);
+        let turned = SurfacePoint { position: point, normal: at.normal };
+        let from_parts =
+            self.links_from(face, point, &mut look.view).iter().fold(V::splat(0.0), |sum, link| {
+                let node = self.tree.node(link.node);
+                sum + self.sent[link.node as usize]
+                    * (f64::from(link.factor) * change(flat, &turned, &node.polygon))
+            });
+        direct + from_parts * (1.0 / above_both(flat, at.normal))
+    }
+}
+
+/// The part of the light of an even sky that comes from above both horizons, of that from above the curve's.
+fn above_both(face: &Polygon, normal: DVec3) -> f64 {
+    0.5 * (1.0 + face.normal().dot(normal))
+}
+
+/// F₀(x, n)/F₀(x): what a part in front of a face sends to the curve there, over what it sends to the face.
+fn change(face: &Polygon, at: &SurfacePoint, part: &Polygon) -> f64 {
+    let about = |normal: DVec3, part: &Polygon| point_to_polygon(at.position, normal, part);
+    let whole = about(face.normal(), part);
+    let is_in_front = part.vertices().iter().all(|v| face.height_of(*v) >= 0.0);
+    let turned = match is_in_front {
+        true => about(at.normal, part),
+        false => part.in_front_of(face).iter().map(|piece| about(at.normal, piece)).sum(),
+    };
+    if whole > 0.0 { turned / whole } else { 0.0 }
+}
