@@ -3,13 +3,13 @@
 mod accuracy;
 pub mod args;
 mod domain;
-mod frames;
+pub mod frames;
 pub mod memory;
-mod outputs;
+pub mod outputs;
 mod picture;
 mod progress;
-mod report;
-mod settings;
+pub mod report;
+pub mod settings;
 pub mod table;
 mod thermal;
 pub mod timing;

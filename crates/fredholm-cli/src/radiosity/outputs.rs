@@ -44,14 +44,19 @@ impl Outputs {
     }
 }
 
-/// A name for the picture of a scene: small letters, digits and hyphens, whatever the scene is called.
+/// A name for the picture of a scene.
 fn file_name(scene: &str) -> String {
+    format!("{}.png", stem(scene))
+}
+
+/// A name for the files of a scene: small letters, digits and hyphens, whatever the scene is called.
+pub fn stem(scene: &str) -> String {
     let stem = [".obj", ".toml"].iter().find_map(|ending| scene.strip_suffix(ending)).unwrap_or(scene);
     let words: Vec<String> =
         stem.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).map(str::to_lowercase).collect();
     // File systems take 255 bytes; nobody reads that far.
     let name: String = words.join("-").chars().take(60).collect();
-    format!("{}.png", if name.is_empty() { "scene" } else { &name })
+    if name.is_empty() { "scene".to_owned() } else { name }
 }
 
 /// Writes a picture as PNG.
