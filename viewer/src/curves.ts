@@ -1,7 +1,7 @@
 // The residual, the error bound and the unshot power over the work that they took: two small plots with one axis of work.
 
 import type { Point } from './history';
-import { text } from './scale';
+import { power, text } from './scale';
 
 export interface Series {
   name: string;
@@ -12,11 +12,12 @@ interface Kind {
   of: (point: Point) => number;
   dash: number[];
   label: string;
+  short: string;
 }
 
-const RESIDUAL: Kind = { of: (p) => p.residual, dash: [], label: 'residual ‖r‖' };
-const BOUND: Kind = { of: (p) => p.bound, dash: [5, 3], label: 'error bound' };
-const UNSHOT: Kind = { of: (p) => p.unshot, dash: [], label: 'unshot power' };
+const RESIDUAL: Kind = { of: (p) => p.residual, dash: [], label: 'residual ‖r‖', short: '‖r‖' };
+const BOUND: Kind = { of: (p) => p.bound, dash: [5, 3], label: 'error bound', short: 'bound' };
+const UNSHOT: Kind = { of: (p) => p.unshot, dash: [], label: 'unshot power', short: 'unshot' };
 
 export interface Look {
   units: { exitance: string; power: string };
@@ -82,6 +83,11 @@ class Plot {
     if (shown !== undefined) this.line(this.x(shown));
   }
 
+  /** On a phone. */
+  private get isNarrow(): boolean {
+    return this.box.width < 260;
+  }
+
   private x(work: number): number {
     return this.area.x + (work / this.most) * this.area.width;
   }
@@ -96,8 +102,8 @@ class Plot {
     pen.font = '11px system-ui, sans-serif';
     pen.lineWidth = 1;
     const step = Math.max(1, Math.ceil((this.high - this.low) / Math.max(1, Math.floor(area.height / 16))));
-    for (let power = this.low; power <= this.high; power += step) {
-      const y = this.y(10 ** power);
+    for (let exponent = this.low; exponent <= this.high; exponent += step) {
+      const y = this.y(10 ** exponent);
       pen.strokeStyle = look.faint;
       pen.beginPath();
       pen.moveTo(area.x, y);
@@ -105,12 +111,14 @@ class Plot {
       pen.stroke();
       pen.fillStyle = look.ink;
       pen.textAlign = 'right';
-      pen.fillText(text(10 ** power, 1), area.x - 4, y + 4);
+      pen.fillText(power(exponent), area.x - 4, y + 4);
     }
     pen.textAlign = 'left';
     this.title(kinds, unit);
     pen.textAlign = 'center';
-    pen.fillText(`work: ${text(this.most)} n² form factors`, area.x + area.width / 2, this.box.height - 3);
+    if (!this.isNarrow) pen.fillText('form factors used', area.x + area.width / 2, this.box.height - 3);
+    pen.textAlign = 'right';
+    pen.fillText(`${text(this.most)} n²`, area.x + area.width, this.box.height - 3);
     pen.textAlign = 'left';
     pen.fillText('0', area.x, this.box.height - 3);
   }
@@ -126,10 +134,11 @@ class Plot {
       pen.lineTo(x + 14, 7);
       pen.stroke();
       pen.setLineDash([]);
-      pen.fillText(kind.label, x + 18, 11);
-      x += 26 + pen.measureText(kind.label).width;
+      const label = this.isNarrow ? kind.short : kind.label;
+      pen.fillText(label, x + 18, 11);
+      x += 26 + pen.measureText(label).width;
     }
-    pen.fillText(`in ${unit}`, x - 4, 11);
+    pen.fillText(this.isNarrow ? unit : `in ${unit}`, x - 4, 11);
   }
 
   private curve(points: Point[], kind: Kind, colour: string): void {

@@ -20,6 +20,9 @@ const SHOTS_A_SECOND = 100;
 const SWEEPS_A_SECOND = 1;
 const RACE = 0.1;
 
+/** The tone mappings take some off below and bend above, so that the exposure for a line with a shoulder leaves them dark. */
+const BRIGHTER = 1.7;
+
 class Page {
   private readonly scene: Scene;
   private readonly patches: Patches;
@@ -37,6 +40,7 @@ class Page {
   private pending = false;
   private relightTimer = 0;
   private noticeTimer = 0;
+  private inks = inks();
   private pointer: { clientX: number; clientY: number } | undefined;
 
   constructor(private readonly source: Source) {
@@ -49,7 +53,7 @@ class Page {
     this.view = new View(element<HTMLCanvasElement>('picture'), this.patches, scene.camera);
     this.relit = new Relit(scene.lamps.length, scene.patches);
     document.title = `${scene.name}: fredholm view`;
-    element('title').textContent = `${scene.name}, ${text(scene.patches)} patches up to ${text(scene.patch_size)} ${scene.units.length}`;
+    element('title').textContent = `${scene.name}, ${text(scene.patches, 9)} patches up to ${text(scene.patch_size)} ${scene.units.length}`;
     document.body.classList.toggle('recorded', !source.live);
     this.panel = new Panel(scene, this.materials, this.settings, this.first, {
       solvers: () => this.start(),
@@ -250,6 +254,7 @@ class Page {
     if (settings.display === 'difference' && !settings.rival && this.scene.stored && !this.relit.isAsked) this.askRelight();
     this.panel.show();
     this.panel.showSpeed(this.passes);
+    this.inks = inks();
     this.remember();
     this.refresh();
   }
@@ -308,7 +313,7 @@ class Page {
     picture.mark('shot', frame.shot === NONE || this.relit.active ? undefined : frame.shot);
     if (settings.display === 'light') {
       this.scale = undefined;
-      picture.material.showLight((scene.exposure / Math.PI) * 2 ** settings.exposure);
+      picture.material.showLight(((BRIGHTER * scene.exposure) / Math.PI) * 2 ** settings.exposure);
       picture.set('light', sight.radiosity, settings.smooth);
       return;
     }
@@ -361,7 +366,9 @@ class Page {
     }
     set('formula', equation(method, frame));
     set('method', method.formula(frame));
-    element('now').textContent = method.now(frame, (i) => this.patchName(i)) + ending(frame);
+    element('now').textContent = run.solvers.length > 1
+      ? `A race at equal work: ${text(frame.work)} n² form factors for each.`
+      : method.now(frame, (i) => this.patchName(i)) + ending(frame);
     this.showLanes(run);
   }
 
@@ -400,20 +407,11 @@ class Page {
         return line;
       }),
     );
-    const style = getComputedStyle(document.documentElement);
-    const probe = (name: string): string => {
-      const span = document.createElement('span');
-      span.style.color = `var(${name})`;
-      document.body.append(span);
-      const colour = getComputedStyle(span).color;
-      span.remove();
-      return colour;
-    };
-    void style;
+    const { ink, faint, lanes } = this.inks;
     this.curves.draw(
       run.solvers.map((solver, lane) => ({ name: METHODS[solver].name, points: run.histories[lane]!.points })),
       run.isNewest ? undefined : run.frame(0)?.work,
-      { units: scene.units, ink: probe('--soft'), faint: probe('--line'), colours: [probe('--lane-0'), probe('--lane-1')] },
+      { units: scene.units, ink, faint, colours: lanes },
     );
     const frame = run.frame(0)!;
     Object.assign(document.body.dataset, { iteration: String(frame.iteration), residual: String(frame.residual), state: State[frame.state] });
@@ -485,6 +483,11 @@ class Page {
 
   private buttons(): void {
     const click = (id: string, act: () => void): void => element(id).addEventListener('click', act);
+    click('help', () => {
+      const letters = element('letters');
+      letters.hidden = !letters.hidden;
+      element('help').setAttribute('aria-expanded', String(!letters.hidden));
+    });
     click('restart', () => this.start(true));
     click('back', () => this.move(-1));
     click('play', () => this.toggle());
@@ -592,6 +595,17 @@ class Page {
       this.look();
     });
   }
+}
+
+/** The colours of curves, as the style sheet has them now. */
+function inks(): { ink: string; faint: string; lanes: [string, string] } {
+  const probe = document.body.appendChild(document.createElement('span'));
+  const [ink, faint, first, second] = ['--soft', '--line', '--lane-0', '--lane-1'].map((name) => {
+    probe.style.color = `var(${name})`;
+    return getComputedStyle(probe).color;
+  }) as [string, string, string, string];
+  probe.remove();
+  return { ink, faint, lanes: [first, second] };
 }
 
 function ending(frame: Frame): string {

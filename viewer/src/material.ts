@@ -45,8 +45,10 @@ void main() {
     #endif
   } else {
     float at = onScale(vNumber);
+    bool known = vNumber > -1e29;
     colour = texture2D(colours, vec2(clamp(at, 0.0, 1.0) * 255.0 / 256.0 + 0.5 / 256.0, 0.5)).rgb;
-    if (contours) {
+    if (!known) colour = vec3(0.2);
+    if (contours && known) {
       float line = at / interval;
       float width = fwidth(line);
       float distance = abs(fract(line - 0.5) - 0.5);
@@ -54,9 +56,10 @@ void main() {
       colour *= 1.0 - 0.75 * inside * (1.0 - smoothstep(0.6 * width, 1.4 * width, distance));
     }
   }
-  float grid = 1.0 - smoothstep(0.5, 1.3, vEdge / max(fwidth(vEdge), 1e-6));
+  float grid = 1.0 - smoothstep(0.2, 0.9, vEdge / max(fwidth(vEdge), 1e-6));
   float brightness = dot(colour, vec3(0.2126, 0.7152, 0.0722));
-  colour = mix(colour, vec3(brightness > 0.2 ? 0.0 : 0.75), mesh * grid);
+  // Dark lines, but where it is too dark to see them.
+  colour = mix(colour, vec3(lit && brightness < 0.02 ? 0.2 : 0.0), mesh * grid);
   gl_FragColor = linearToOutputTexel(vec4(colour, 1.0));
 }`;
 

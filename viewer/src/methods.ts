@@ -2,6 +2,7 @@
 
 import type { Frame, Solver } from './protocol';
 import { NONE } from './protocol';
+import { text } from './scale';
 
 export interface Method {
   name: string;
@@ -38,7 +39,7 @@ export const METHODS: Record<Solver, Method> = {
     now: (frame, patch) => {
       if (frame.iteration === 0) return 'Before the first shot only the lamps shine: r = f.';
       const of = frame.shot === NONE ? '' : `: ${patch(frame.shot)} has sent its unshot light to all others`;
-      return `Shot ${frame.iteration.toLocaleString('en')}${of}.`;
+      return `Shot ${text(frame.iteration, 9)}${of}.`;
     },
   },
   'gauss-seidel': {

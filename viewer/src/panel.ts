@@ -143,7 +143,7 @@ export class Panel {
 
   /** Shows the settings. */
   show(): void {
-    const { settings, scene } = this;
+    const { settings } = this;
     const set = (id: string, value: string): void => {
       element<HTMLInputElement | HTMLSelectElement>(id).value = value;
     };
@@ -168,7 +168,6 @@ export class Panel {
     };
     this.sliders.lamps.forEach((input, k) => said(input, settings.lamps[k]!, `× ${settings.lamps[k]!.toFixed(2)}`));
     this.sliders.materials.forEach((input, k) => said(input, settings.materials[k]!, settings.materials[k]!.toFixed(2)));
-    void scene;
   }
 
   /** Shows a speed, in passes a second, as the method counts. */

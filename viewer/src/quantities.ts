@@ -43,12 +43,15 @@ const brightness = (radiosity: Float32Array): Float32Array =>
   );
 
 /** Around what is lit; lamps are above the scale. */
-function around(values: Float32Array, patches: Patches): Scale {
-  const known = Array.from(values.keys()).filter((i) => values[i]! > UNKNOWN / 2);
+function around(values: Float32Array, patches: Patches, sight: Sight): Scale {
+  const isLamp = (i: number): boolean => sight.emission[patches.surface[i]!]!.some((e) => e > 0);
+  const all = Array.from(values.keys()).filter((i) => values[i]! > UNKNOWN / 2);
+  const reflecting = all.filter((i) => !isLamp(i));
+  const known = reflecting.length > 0 ? reflecting : all;
   const own = Float32Array.from(known, (i) => values[i]!);
   const areas = Float32Array.from(known, (i) => patches.areas[i]!);
   const high = percentile(own, areas, 0.98);
-  const most = own.reduce((a, b) => Math.max(a, b), 0);
+  const most = all.reduce((largest, i) => Math.max(largest, values[i]!), 0);
   return most <= 1.3 * high ? linear(0, most) : linear(0, high, true);
 }
 

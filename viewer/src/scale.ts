@@ -22,7 +22,7 @@ function round(step: number): number {
 /** From a round number to a round number, over these. */
 export function linear(low: number, high: number, cut = false): Scale {
   const span = high - low > 1e-9 * Math.abs(high) ? high - low : Math.abs(high) || 1;
-  const step = round(span / 5);
+  const step = round(span / 8);
   const from = Math.floor(low / step + 1e-9) * step;
   const count = Math.max(1, Math.ceil((high - from) / step - 1e-9));
   const ticks = Array.from({ length: count + 1 }, (_, k) => from + k * step);
@@ -74,6 +74,10 @@ const grouped = (number: string): string => {
   const groups = whole!.length > 4 ? whole!.replace(/\B(?=(\d{3})+$)/g, ' ') : whole!;
   return part ? `${groups}.${part}` : groups;
 };
+
+/** A power of ten, as short as it is read. */
+export const power = (exponent: number): string =>
+  Math.abs(exponent) <= 3 ? text(10 ** exponent, 1) : `10${[...String(exponent)].map((c) => SUPERSCRIPT[c]).join('')}`;
 
 const SUPERSCRIPT: Record<string, string> = {
   '-': '⁻', '0': '⁰', '1': '¹', '2': '²', '3': '³', '4': '⁴', '5': '⁵', '6': '⁶', '7': '⁷', '8': '⁸', '9': '⁹',
