@@ -40,7 +40,7 @@ export class Curves {
     pen.scale(ratio, ratio);
     const all = series.flatMap(({ points }) => points);
     if (all.length === 0) return;
-    const most = Math.max(...all.map((point) => point.work), 1e-12);
+    const most = Math.max(...all.map((point) => point.work)) || 1;
     const gap = 12;
     const half = (width - gap) / 2;
     const plot = (left: number, kinds: Kind[], unit: string): void =>

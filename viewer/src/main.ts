@@ -35,6 +35,10 @@ class Page {
   private readonly relit: Relit;
   private run: Run | undefined;
   private playing = false;
+  /** Until the solver that was asked for begins. */
+  private waiting = false;
+  /** The share of the form factors that are known. */
+  private assembled = 0;
   private factors: Sight['factors'];
   private scale: Scale | undefined;
   private pending = false;
@@ -76,6 +80,7 @@ class Page {
     if (camera) this.view.go({ ...scene.camera, position: camera.slice(0, 3), target: camera.slice(3) });
     source.listen((message) => this.hear(message), () => this.lost());
     if (source.live) this.start(!this.settings.paused);
+    else if (!matchMedia('(prefers-reduced-motion: reduce)').matches) this.replay();
     if (this.settings.patch !== undefined) this.pick(this.settings.patch);
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.look());
     addEventListener('resize', () => this.refresh());
@@ -90,6 +95,7 @@ class Page {
       case 'assembly':
         return this.showAssembly(message.done, message.of);
       case 'started':
+        this.waiting = message.solvers[0] !== this.settings.solver || message.solvers[1] !== this.settings.rival;
         this.run = new Run(message.run, message.solvers, message.norm, message.target);
         this.scale = undefined;
         return this.refresh();
@@ -117,6 +123,8 @@ class Page {
   }
 
   private showAssembly(done: number, of: number): void {
+    this.assembled = done / of;
+    if (this.waiting) this.refresh();
     const bar = element<HTMLProgressElement>('assembly');
     bar.hidden = done >= of;
     bar.value = done / of;
@@ -134,6 +142,7 @@ class Page {
   private start(play = this.playing || !this.run?.goesOn): void {
     const { solver, rival, lamps } = this.settings;
     this.relit.active = false;
+    this.waiting = true;
     this.source.send({ type: 'start', solvers: rival ? [solver, rival] : [solver], lamps, reflectance: this.reflectance });
     this.setPlaying(play);
     this.look();
@@ -296,7 +305,8 @@ class Page {
       return { ...common, radiosity, rest: undefined, bound: NaN, other: undefined, otherName: '' };
     }
     const rival = run.frame(1 - lane);
-    const solution = run.histories.length === 1 && relit.isWhole ? relit.combine(settings.lamps) : undefined;
+    const recorded = this.source.live ? undefined : run.histories[0]!.last?.radiosity;
+    const solution = run.histories.length === 1 && relit.isWhole ? relit.combine(settings.lamps) : recorded;
     const otherName = rival
       ? `${METHODS[run.solvers[lane]!].name} minus ${METHODS[run.solvers[1 - lane]!].name}`
       : 'this moment minus the solution';
@@ -350,7 +360,7 @@ class Page {
   }
 
   private showEquation(): void {
-    const { run, relit } = this;
+    const { run, relit, settings } = this;
     const frame = run?.frame(0);
     if (!run || !frame) return;
     const method = METHODS[run.solvers[0]!];
@@ -362,6 +372,12 @@ class Page {
       set('method', 'u<sub>k</sub> = f<sub>k</sub> + ρ <i>⊙</i> F u<sub>k</sub>');
       element('now').textContent = 'Relit: the solution, summed over its lamps. Restart to watch this light converge.';
       element('lanes').replaceChildren();
+      return;
+    }
+    if (this.waiting && this.assembled < 1) {
+      const names = [settings.solver, settings.rival].flatMap((solver) => (solver ? [METHODS[solver].name.split(':')[0]] : []));
+      element('now').textContent =
+        `${names.join(' and ')} begin${names.length > 1 ? '' : 's'} when all form factors are known: ${text(100 * this.assembled, 2)} % are.`;
       return;
     }
     set('formula', equation(method, frame));

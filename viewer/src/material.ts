@@ -16,6 +16,12 @@ void main() {
   vNumber = number;
   vEdge = edge;
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+  #ifdef EDGES
+    // Triangles have a back that is not drawn; lines have none, and are put behind the eye.
+    if (dot(cameraPosition - position, normal) <= 0.0) gl_Position = vec4(0.0, 0.0, -2.0, 1.0);
+    // They are to be seen through cracks only.
+    gl_Position.z += 2e-4 * gl_Position.w;
+  #endif
 }`;
 
 const FRAGMENT = /* glsl */ `
@@ -94,6 +100,12 @@ export class PatchMaterial extends ShaderMaterial {
         mesh: { value: 0 },
       },
     });
+  }
+
+  /** The same for the edges of patches, whatever is shown. */
+  forEdges(): ShaderMaterial {
+    const { uniforms } = this;
+    return Object.assign(new ShaderMaterial({ vertexShader: VERTEX, fragmentShader: FRAGMENT, defines: { EDGES: '' } }), { uniforms });
   }
 
   /** Shows light; `exposure` is from exitance to a screen on which 1 is white. */

@@ -51,7 +51,8 @@ export class Panel {
     const solvers = scene.solvers.map((solver): [string, string, string] => [solver, METHODS[solver].name, METHODS[solver].tip]);
     fill('solver', solvers);
     fill('rival', [['', 'nobody', 'One solver alone'], ...solvers]);
-    fill('display', DISPLAYS.map((display) =>
+    const shown = DISPLAYS.filter((display) => scene.solvers.length > 0 || (display !== 'received' && display !== 'sent'));
+    fill('display', shown.map((display) =>
       display === 'light' ? [display, 'light, as the eye sees it', ''] : [display, QUANTITIES[display].name, QUANTITIES[display].hint],
     ));
     element<HTMLSelectElement>('rival').disabled = scene.solvers.length < 2;

@@ -128,10 +128,12 @@ export class Patches {
     }
   }
 
-  /** Positions of vertices, the distance from the edge (0 at corners, 1 at centres), and triangles. */
-  build(): { position: Float32Array; edge: Float32Array; index: Uint32Array } {
+  /** Positions and normals of vertices, the distance from the edge (0 at corners, 1 at centres), triangles, and edges. */
+  build(): { position: Float32Array; normal: Float32Array; edge: Float32Array; index: Uint32Array; edges: Uint32Array } {
     const position = new Float32Array(3 * this.vertices);
+    const normal = new Float32Array(3 * this.vertices);
     const edge = new Float32Array(this.vertices);
+    const edges = new Uint32Array(2 * (this.vertices - this.count));
     const index = new Uint32Array(3 * (this.vertices - this.count));
     let at = 0;
     for (let i = 0; i < this.count; i++) {
@@ -139,13 +141,16 @@ export class Patches {
       const centre = first + sides;
       for (let k = 0; k < sides; k++) {
         position.set(this.corner(i, k), 3 * (first + k));
-        index.set([first + k, first + ((k + 1) % sides), centre], at);
-        at += 3;
+        const next = first + ((k + 1) % sides);
+        index.set([first + k, next, centre], 3 * at);
+        edges.set([first + k, next], 2 * at);
+        at++;
       }
       position.set(this.centres.subarray(3 * i, 3 * i + 3), 3 * centre);
       edge[centre] = 1;
+      for (let vertex = first; vertex <= centre; vertex++) normal.set(this.normals.subarray(3 * i, 3 * i + 3), 3 * vertex);
     }
-    return { position, edge, index };
+    return { position, normal, edge, index, edges };
   }
 
   /** The first front that a ray meets. */

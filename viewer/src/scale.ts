@@ -24,7 +24,7 @@ export function linear(low: number, high: number, cut = false): Scale {
   const span = high - low > 1e-9 * Math.abs(high) ? high - low : Math.abs(high) || 1;
   const step = round(span / 8);
   const from = Math.floor(low / step + 1e-9) * step;
-  const count = Math.max(1, Math.ceil((high - from) / step - 1e-9));
+  const count = Math.max(1, Math.ceil((Math.max(high, low + span) - from) / step - 1e-9));
   const ticks = Array.from({ length: count + 1 }, (_, k) => from + k * step);
   return { low: from, high: ticks[count]!, logarithmic: false, palette: 'viridis', ticks, cut };
 }

@@ -1,7 +1,8 @@
 // The picture: patches seen by one camera, once or twice side by side, drawn when something has changed.
 
 import {
-  AgXToneMapping, BufferAttribute, BufferGeometry, DynamicDrawUsage, Line, LineBasicMaterial, Mesh, MOUSE, NeutralToneMapping,
+  AgXToneMapping, BufferAttribute, BufferGeometry, DynamicDrawUsage, Line, LineBasicMaterial,
+  LineSegments, Mesh, MOUSE, NeutralToneMapping,
   NoToneMapping, PerspectiveCamera, Scene as Space, Vector2, Vector3, WebGLRenderer, type ToneMapping,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
@@ -28,13 +29,18 @@ export class Picture {
     geometry.setIndex(new BufferAttribute(shape.index, 1));
     geometry.setAttribute('position', new BufferAttribute(shape.position, 3));
     geometry.setAttribute('edge', new BufferAttribute(shape.edge, 1));
+    geometry.setAttribute('normal', new BufferAttribute(shape.normal, 3));
     for (const [name, channels] of [['light', 3], ['number', 1]] as const) {
       const attribute = new BufferAttribute(new Float32Array(channels * patches.vertices), channels);
       geometry.setAttribute(name, attribute.setUsage(DynamicDrawUsage));
     }
     const mesh = new Mesh(geometry, this.material);
-    mesh.frustumCulled = false;
-    this.space.add(mesh);
+    // Where patches of different sizes meet, rounding leaves cracks between them, which their edges cover.
+    const seams = new BufferGeometry().setIndex(new BufferAttribute(shape.edges, 1));
+    for (const name of Object.keys(geometry.attributes)) seams.setAttribute(name, geometry.getAttribute(name));
+    const edges = new LineSegments(seams, this.material.forEdges());
+    mesh.frustumCulled = edges.frustumCulled = false;
+    this.space.add(mesh, edges);
     this.outlines = { picked: outline(0xffffff), shot: outline(0xffb000) };
     this.space.add(...Object.values(this.outlines));
   }

@@ -4,20 +4,20 @@
 //! ([`solvers`]), at its [`pace`]; the [`server`] carries what they say to each other ([`protocol`]).
 
 pub mod args;
-mod description;
+pub mod description;
 mod export;
 mod guard;
 mod inbox;
 mod kept;
 mod lamps;
 mod pace;
-mod page;
-mod protocol;
+pub mod page;
+pub mod protocol;
 mod relight;
 mod server;
 mod session;
 mod setup;
-mod solvers;
+pub mod solvers;
 mod stage;
 
 use self::args::View;
@@ -60,7 +60,10 @@ pub fn command(args: &View) -> Result<Ending> {
     let hall = Arc::new(hall(Stage::new(scene, units, how)?, solver, port)?);
     if hall.stage.is_stored() {
         let hall = Arc::clone(&hall);
-        std::thread::Builder::new().name("form factors".into()).spawn(move || hall.stage.assemble())?;
+        // A pool of their own: in the common one they would be in the way of every shot until all of them are there.
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(rayon::current_num_threads()).build()?;
+        let assemble = move || pool.install(|| hall.stage.assemble());
+        std::thread::Builder::new().name("form factors".into()).spawn(assemble)?;
     }
     let address = format!("http://127.0.0.1:{port}/");
     say(

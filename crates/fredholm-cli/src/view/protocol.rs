@@ -177,14 +177,21 @@ pub struct Head {
     pub unshot: f64,
 }
 
-/// A frame: kind 1.
-pub fn frame(head: &Head, radiosity: &[Rgb], residual: &[Rgb]) -> Vec<u8> {
+/// The head of a frame: kind 1.
+pub fn head(head: &Head) -> Vec<u8> {
     let shot = head.shot.map_or(NONE, |patch| patch as u32);
-    let mut bytes = Vec::with_capacity(56 + 16 * radiosity.len());
+    let mut bytes = Vec::new();
     words(&mut bytes, &[1, head.lane, head.run, head.iteration, shot, head.state as u32]);
     for number in [head.work, head.residual, head.bound.unwrap_or(f64::NAN), head.unshot] {
         bytes.extend(number.to_le_bytes());
     }
+    bytes
+}
+
+/// A frame: kind 1.
+pub fn frame(told: &Head, radiosity: &[Rgb], residual: &[Rgb]) -> Vec<u8> {
+    let mut bytes = head(told);
+    bytes.reserve(16 * radiosity.len());
     colours(&mut bytes, radiosity);
     numbers(&mut bytes, residual.iter().map(Value::magnitude));
     bytes
