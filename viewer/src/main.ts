@@ -143,6 +143,7 @@ class Page {
     const { solver, rival, lamps } = this.settings;
     this.relit.active = false;
     this.waiting = true;
+    document.body.dataset['state'] = 'Asked';
     this.source.send({ type: 'start', solvers: rival ? [solver, rival] : [solver], lamps, reflectance: this.reflectance });
     this.setPlaying(play);
     this.look();
@@ -280,7 +281,7 @@ class Page {
 
   private show(): void {
     const { run, view } = this;
-    if (!run || run.length === 0) return;
+    if (!run || run.histories.some((history) => history.frames.length === 0)) return;
     document.body.classList.toggle('relit', this.relit.active);
     view.shown = this.relit.active ? 1 : run.histories.length;
     for (let lane = 0; lane < view.shown; lane++) this.showLane(lane);
@@ -430,6 +431,7 @@ class Page {
       { units: scene.units, ink, faint, colours: lanes },
     );
     const frame = run.frame(0)!;
+    if (this.waiting) return;
     Object.assign(document.body.dataset, { iteration: String(frame.iteration), residual: String(frame.residual), state: State[frame.state] });
   }
 

@@ -34,19 +34,19 @@ test('light is seen to converge, can be paused, stepped and scrubbed back', asyn
 
 test('the picture has the brightness of the solution', async ({ page }) => {
   // In the furnace u = E/(1 − ρ) everywhere: 2, 4/3 and 4 W/m².
-  await visit(page, `${furnace.address}#solver=gauss-seidel&speed=50&tone=linear&exposure=-1`);
+  await visit(page, `${furnace.address}#solver=gauss-seidel&speed=50&tone=linear&exposure=-2`);
   await converged(page);
   const exposure = await page.evaluate(async () => ((await (await fetch('scene.json')).json()) as { exposure: number }).exposure);
   const colour = await meanColour(page);
   [2, 4 / 3, 4].forEach((u, c) => {
-    const expected = ((1.7 * exposure) / Math.PI) * 0.5 * u;
+    const expected = ((1.7 * exposure) / Math.PI) * 0.25 * u;
     expect(expected, 'the test must not look at what is cut off').toBeLessThan(0.95);
     expect(colour[c]! / expected).toBeCloseTo(1, 1.7);
   });
 });
 
 test('a dimmed lamp is that much less light, at once', async ({ page }) => {
-  await visit(page, `${cornell.address}#solver=gauss-seidel&speed=50&tone=linear&exposure=-1`);
+  await visit(page, `${cornell.address}#solver=gauss-seidel&speed=50&tone=linear&exposure=-2`);
   await converged(page);
   const full = await meanColour(page, { x: 0.4, y: 0.5, width: 0.2, height: 0.3 });
   await slide(page, '#lamps input', 0.5);
@@ -168,13 +168,13 @@ test('every format can be saved', async ({ page }) => {
 test('a page of its own shows the same without a server', async ({ page }, info) => {
   const path = info.outputPath('furnace.html');
   run('radiosity', FURNACE, '--patch-count', '150', '--solver', 'jacobi', '--html', path);
-  await visit(page, `file://${path}#tone=linear&exposure=-1`);
+  await visit(page, `file://${path}#tone=linear&exposure=-2`);
   await converged(page);
   const exposure = await page.evaluate(
     () => (JSON.parse(document.getElementById('recording')!.textContent!) as { scene: { exposure: number } }).scene.exposure,
   );
   const colour = await meanColour(page);
-  [2, 4 / 3, 4].forEach((u, c) => expect(colour[c]! / (((1.7 * exposure) / Math.PI) * 0.5 * u)).toBeCloseTo(1, 1.7));
+  [2, 4 / 3, 4].forEach((u, c) => expect(colour[c]! / (((1.7 * exposure) / Math.PI) * 0.25 * u)).toBeCloseTo(1, 1.7));
   await slide(page, '#scrub', 0);
   await expect(page.locator('body')).toHaveAttribute('data-iteration', '1');
   await expect(page.getByRole('button', { name: 'Restart' })).toBeHidden();

@@ -128,6 +128,12 @@ fn discretisation(args: &View, wishes: &SolveOptions, scene: &Scene<Rgb>) -> Res
     if method == Method::Nystrom {
         bail!("nystrom's factors between points are not shown: choose --method galerkin or collocation");
     }
+    if wishes.accuracy.is_some() {
+        let file = file.display();
+        warn(&format!(
+            "{file}: [solve] accuracy finds a mesh of its own; what is watched has patches of one size"
+        ))?;
+    }
     let size = args.patch_size.or(wishes.patch_size.filter(|_| args.patch_count.is_none()));
     Ok(Discretisation {
         size: size.unwrap_or_else(|| size_for_count(scene, args.patch_count.unwrap_or(PATCHES))),

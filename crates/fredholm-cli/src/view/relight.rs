@@ -23,10 +23,9 @@ struct Job {
     reflectance: Vec<Rgb>,
     version: u32,
     lamp: usize,
+    /// ‖r‖∞ of the lamp before the last sweeps.
+    last: f64,
 }
-
-/// The residual, relative to the lamp's own source, at which a lamp is done: of no more than that can the eye know.
-const TOLERANCE: f64 = 1e-4;
 
 /// Sweeps between two answers. Each answer costs a residual as well, so fewer are wasteful; more are seen as jerks.
 const SWEEPS: usize = 2;
@@ -39,7 +38,7 @@ impl Relight {
 
     /// Asks for all lamps with these reflectances of patches.
     pub fn ask(&mut self, reflectance: Vec<Rgb>, version: u32) {
-        self.job = Some(Job { reflectance, version, lamp: 0 });
+        self.job = Some(Job { reflectance, version, lamp: 0, last: f64::INFINITY });
     }
 
     /// Whether there is something to do.
@@ -53,10 +52,12 @@ impl Relight {
         let solution = &mut self.solutions[job.lamp];
         let source = stage.lamps[job.lamp].source(&stage.patches, &job.reflectance);
         let kept = Kept::Stored(matrix);
-        let state = improve(solution, &source, &job.reflectance, &kept);
+        let target = stage.how.tolerance * max_norm(&source);
+        let (state, norm) = improve(solution, (&source, &job.reflectance, &kept), (target, job.last));
         let answer = lamp(job.lamp as u32, job.version, state, solution);
+        job.last = norm;
         if state != State::Running {
-            job.lamp += 1;
+            (job.lamp, job.last) = (job.lamp + 1, f64::INFINITY);
             if job.lamp == stage.lamps.len() {
                 self.job = None;
             }
@@ -65,24 +66,33 @@ impl Relight {
     }
 }
 
-/// A few sweeps on the equation of what ũ lacks.
-fn improve(solution: &mut [Rgb], source: &[Rgb], reflectance: &[Rgb], kept: &Kept<'_>) -> State {
-    let system = System { source, coefficient: reflectance, operator: kept };
+/// Sweeps that leave more of the residual than this are at the end of what rounding lets them do: in a closed white room
+/// of reflectance 0.99 they leave 0.98.
+const STALLED: f64 = 0.999;
+
+/// A few sweeps on the equation of what ũ lacks, unless it lacks less than the target; with the residual before them.
+fn improve(
+    solution: &mut [Rgb],
+    (source, coefficient, operator): (&[Rgb], &[Rgb], &Kept<'_>),
+    (target, last): (f64, f64),
+) -> (State, f64) {
+    let system = System { source, coefficient, operator };
     let residual = system.residual(solution);
-    let target = TOLERANCE * max_norm(source);
-    if max_norm(&residual) <= target {
-        return State::Converged;
+    let norm = max_norm(&residual);
+    if norm <= target {
+        return (State::Converged, norm);
+    }
+    if norm > STALLED * last {
+        return (State::Stalled, norm);
     }
     let mut lacking = GaussSeidel::new(System { source: &residual, ..system });
-    let mut norm = f64::INFINITY;
     for _ in 0..SWEEPS {
-        norm = lacking.sweep();
-    }
-    if !norm.is_finite() {
-        return State::Diverged;
+        if !lacking.sweep().is_finite() {
+            return (State::Diverged, norm);
+        }
     }
     solution.iter_mut().zip(lacking.solution()).for_each(|(u, v)| *u += v);
-    State::Running
+    (State::Running, norm)
 }
 
 #[cfg(test)]
@@ -111,7 +121,7 @@ mod tests {
             let sum = |i: usize| relight.solutions.iter().fold(Rgb::splat(0.0), |sum, u| sum + u[i]);
             let off: Vec<Rgb> = expected.iter().enumerate().map(|(i, u)| *u - sum(i)).collect();
             let size = max_norm(&patches.emission);
-            assert!(max_norm(&off) < 10.0 * TOLERANCE * size, "{} of {size}", max_norm(&off));
+            assert!(max_norm(&off) < 10.0 * stage.how.tolerance * size, "{} of {size}", max_norm(&off));
         };
         check(&relight, &stage.patches.reflectance);
         let mut darker = stage.patches.reflectance.clone();
