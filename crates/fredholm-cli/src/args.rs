@@ -5,6 +5,7 @@ use crate::problem::args::FORMULAS;
 use crate::radiosity::args::{EXAMPLES as RADIOSITY_EXAMPLES, Radiosity};
 use crate::solve::args::{EXAMPLES as SOLVE_EXAMPLES, Solve};
 use crate::spectrum::args::{EXAMPLES as SPECTRUM_EXAMPLES, Spectrum};
+use crate::view::args::{EXAMPLES as VIEW_EXAMPLES, View};
 use crate::viewfactors::args::{EXAMPLES as VIEW_FACTORS_EXAMPLES, ViewFactors};
 use clap::{Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -33,6 +34,9 @@ pub enum Command {
     /// Solve the diffuse light of a scene, B = E + ρ ∫ K B, and draw it
     #[command(after_help = RADIOSITY_EXAMPLES, allow_negative_numbers = true)]
     Radiosity(Box<Radiosity>),
+    /// Watch the light of a scene converge, in a browser
+    #[command(after_help = VIEW_EXAMPLES)]
+    View(Box<View>),
     /// Compute the view factors between the faces of a mesh, each with its error
     #[command(after_help = VIEW_FACTORS_EXAMPLES, allow_negative_numbers = true)]
     Viewfactors(Box<ViewFactors>),

@@ -14,6 +14,7 @@ mod solve;
 mod spectrum;
 mod terminal;
 mod text;
+mod view;
 mod viewfactors;
 
 use crate::args::{Cli, Command};
@@ -26,6 +27,7 @@ fn main() -> ExitCode {
         Command::Compare(args) => compare::command(&args),
         Command::Spectrum(args) => spectrum::command(&args),
         Command::Radiosity(args) => radiosity::command(&args),
+        Command::View(args) => view::command(&args),
         Command::Viewfactors(args) => viewfactors::command(&args),
         Command::Quadrature(args) => quadrature::command(&args),
     };

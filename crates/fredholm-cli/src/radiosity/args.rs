@@ -53,6 +53,7 @@ Examples:
   fredholm radiosity --false-colour -o map.png        radiosity in W/m² as a map
   fredholm radiosity oven.toml --thermal              temperatures and heat fluxes, with their errors
   fredholm radiosity office.toml --map illuminance    lux as a map, of a photometric scene
+  fredholm radiosity --html box.html                  the light while it converges, as one page
   fredholm radiosity --json - | jq .closure_defect    the numbers alone
   fredholm radiosity --solver southwell --ambient --frames shots    the light, shot by shot
 
@@ -60,7 +61,7 @@ Exit codes: 0 solved; 1 an error; 2 a mistake on the command line; 3 all is writ
 residual did not reach the tolerance within the iterations; 4 no answer, or more than one (--thermal).";
 
 /// What says how to find the answer, and has no place where only its error is asked for.
-const WAYS: [&str; 12] = [
+const WAYS: [&str; 13] = [
     "thermal",
     "patch_size",
     "patch_count",
@@ -72,6 +73,7 @@ const WAYS: [&str; 12] = [
     "tolerance",
     "iterations",
     "frames",
+    "html",
     "gather",
 ];
 
@@ -90,7 +92,7 @@ pub struct Radiosity {
     #[arg(
         long,
         requires = "scene",
-        conflicts_with_all = ["bands", "photometric", "method", "solver", "ambient", "frames", "gather"],
+        conflicts_with_all = ["bands", "photometric", "method", "solver", "ambient", "frames", "html", "gather"],
         help_heading = "Scene"
     )]
     pub thermal: bool,
@@ -209,6 +211,10 @@ pub struct Radiosity {
     )]
     pub every: Option<usize>,
 
+    /// How the light converges, as one page for any browser: nothing is loaded, and nothing need be installed
+    #[arg(long, value_name = "FILE.html", value_parser = html, help_heading = "Output")]
+    pub html: Option<PathBuf>,
+
     /// The numbers of the run as JSON; `-` writes them alone to the standard output
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub json: Option<PathBuf>,
@@ -230,6 +236,7 @@ impl Radiosity {
             || self.tolerance.is_some()
             || self.iterations.is_some()
             || self.frames.is_some()
+            || self.html.is_some()
     }
 }
 
@@ -359,6 +366,10 @@ fn percent(text: &str) -> Result<f64, String> {
 
 fn png(text: &str) -> Result<PathBuf, String> {
     with_extension(text, &["png"])
+}
+
+fn html(text: &str) -> Result<PathBuf, String> {
+    with_extension(text, &["html"])
 }
 
 fn patches(text: &str) -> Result<PathBuf, String> {

@@ -14,6 +14,7 @@ use radiosity::patches::Patches;
 use radiosity::render::{Colour, Exposure, Picture, Preview};
 use radiosity::scene::Units;
 use radiosity::solve::source;
+use radiosity::visibility::Visibility;
 use std::f64::consts::PI;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -52,7 +53,7 @@ impl Frames {
             every: args.every.unwrap_or(usual),
             preview: Preview::new(&view, &domain.polygons, &domain.patches, &domain.visibility),
             units,
-            exposure: (!args.false_colour).then(|| exposure(domain)),
+            exposure: (!args.false_colour).then(|| exposure(&domain.patches, &domain.visibility)),
             files: Vec::new(),
             preparing: start.elapsed().as_secs_f64(),
             recording: 0.0,
@@ -101,9 +102,9 @@ const BRIGHT: f64 = 2.0;
 
 /// One exposure for all frames, so that the light is seen to grow, and known before there is any: from the mean of
 /// the reflected light, as the ambient term of progressive radiosity estimates it.
-fn exposure<V: Colour>(domain: &Domain<'_, V>) -> Exposure {
-    let Patches { emission, reflectance, areas, .. } = &domain.patches;
-    let lit = mean_irradiances(&domain.patches, &domain.visibility);
+pub fn exposure<V: Colour>(patches: &Patches<V>, visibility: &Visibility) -> Exposure {
+    let Patches { emission, reflectance, areas, .. } = patches;
+    let lit = mean_irradiances(patches, visibility);
     let irradiance = estimated_rest(&source(emission, reflectance, &lit), reflectance, areas).to_rgb();
     let total: f64 = areas.iter().sum();
     let mean = |sum: Rgb, (rho, area): (&V, &f64)| sum + rho.to_rgb() * (area / total);

@@ -3,13 +3,14 @@
 mod accuracy;
 pub mod args;
 mod domain;
-mod frames;
+pub mod frames;
+mod html;
 pub mod memory;
-mod outputs;
+pub mod outputs;
 mod picture;
 mod progress;
-mod report;
-mod settings;
+pub mod report;
+pub mod settings;
 pub mod table;
 mod thermal;
 pub mod timing;
@@ -17,8 +18,9 @@ pub mod timing;
 use self::args::{Bands, Radiosity};
 use self::domain::Domain;
 use self::frames::Frames;
+use self::html::Recording;
 use self::outputs::{Outputs, write_field, write_png};
-use self::picture::draw;
+use self::picture::{draw, view};
 use self::progress::Watcher;
 use self::report::Report;
 use self::settings::Settings;
@@ -36,6 +38,7 @@ use radiosity::export::Field;
 use radiosity::render::Colour;
 use radiosity::scene::{Scene, SolveOptions, Units, cornell_box, cornell_box_spectral, load_in};
 use radiosity::solve::{Solution, solve, solve_elements};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -85,19 +88,20 @@ fn walk<V: Colour>(
     picture::check_map(args.map, units)?;
     let mut seconds = Seconds { load: start.elapsed().as_secs_f64(), ..Seconds::default() };
     let settings = Settings::new(args, wishes, args.scene.as_deref().unwrap_or(Path::new("")))?;
-    let Outputs { picture, patches, json, frames } = Outputs::prepare(args, &scene.name)?;
+    let Outputs { picture, patches, html, json, frames } = Outputs::prepare(args, &scene.name)?;
 
     let domain = Domain::new(scene, settings.size(scene), &mut seconds)?;
     let frames = frames.map(|folder| Frames::new(folder, args, (&settings, units), &domain));
     let Domain { patches: mesh, visibility, .. } = &domain;
     let space = settings.space.degree().map(|degree| Space::new(&mesh.polygons, degree));
-    let mut watcher = Watcher::new((&settings, units), mesh, space.as_ref(), frames);
+    let recording = html.is_some().then(|| Recording::new(&settings)).transpose()?;
+    let mut watcher = Watcher::new((&settings, units), mesh, space.as_ref(), (frames, recording));
     let options = settings.options(space.as_ref().map_or(mesh.len(), Space::dim));
     let solution = match &space {
         None => solve(mesh, visibility, &options, &mut watcher)?,
         Some(space) => means(space, solve_elements(space, mesh, visibility, &options, &mut watcher)?),
     };
-    let mut files = watcher.finish(&solution, &mut seconds)?;
+    let (mut files, recording) = watcher.finish(&solution, &mut seconds)?;
 
     if let Some(output) = picture {
         let image = timed(&mut seconds.picture, || draw(args, &domain, units, &solution));
@@ -105,6 +109,12 @@ fn walk<V: Colour>(
     }
     if let Some(output) = patches {
         files.push(timed(&mut seconds.write, || write_patches(output, &domain, units, &solution))?);
+    }
+    if let (Some(output), Some(recording)) = (html, recording) {
+        let page =
+            || recording.page(&domain, (units, view(args, &domain).camera), settings.size(scene), &solution);
+        let page = timed(&mut seconds.frames, page)?;
+        files.push(timed(&mut seconds.write, || output.write(|out| out.write_all(page.as_bytes())))?);
     }
     files.extend(json.as_ref().and_then(Json::file));
     seconds.total = start.elapsed().as_secs_f64();

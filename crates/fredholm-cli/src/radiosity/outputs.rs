@@ -16,6 +16,8 @@ pub struct Outputs {
     pub picture: Option<Output>,
     /// What is known of each patch.
     pub patches: Option<Output>,
+    /// A page that shows how the light converges.
+    pub html: Option<Output>,
     /// The numbers of the run.
     pub json: Option<Json>,
     /// A picture per iteration.
@@ -25,33 +27,39 @@ pub struct Outputs {
 impl Outputs {
     /// Makes sure that all of them can be written. Without any there is a picture by the scene's name.
     pub fn prepare(args: &Radiosity, scene: &str) -> Result<Self> {
-        let nothing_asked =
-            args.output.is_none() && args.json.is_none() && args.patches.is_none() && args.frames.is_none();
-        let picture = args.output.clone().or_else(|| nothing_asked.then(|| PathBuf::from(file_name(scene))));
+        let nothing_else =
+            args.json.is_none() && args.patches.is_none() && args.frames.is_none() && args.html.is_none();
+        let picture = args.output.clone().or_else(|| nothing_else.then(|| PathBuf::from(file_name(scene))));
         Self::of(args, picture.as_deref())
     }
 
     /// The same without a picture by the scene's name, where the numbers are what is asked for.
     pub fn of(args: &Radiosity, picture: Option<&Path>) -> Result<Self> {
-        refuse_twins(&[picture, args.json.as_deref(), args.patches.as_deref()])?;
+        refuse_twins(&[picture, args.json.as_deref(), args.patches.as_deref(), args.html.as_deref()])?;
         let prepare = |path: Option<&Path>| path.map(Output::prepare).transpose();
         Ok(Self {
             picture: prepare(picture)?,
             patches: prepare(args.patches.as_deref())?,
+            html: prepare(args.html.as_deref())?,
             json: args.json.as_deref().map(Json::prepare).transpose()?,
             frames: args.frames.as_deref().map(Folder::prepare).transpose()?,
         })
     }
 }
 
-/// A name for the picture of a scene: small letters, digits and hyphens, whatever the scene is called.
+/// A name for the picture of a scene.
 fn file_name(scene: &str) -> String {
+    format!("{}.png", stem(scene))
+}
+
+/// A name for the files of a scene: small letters, digits and hyphens, whatever the scene is called.
+pub fn stem(scene: &str) -> String {
     let stem = [".obj", ".toml"].iter().find_map(|ending| scene.strip_suffix(ending)).unwrap_or(scene);
     let words: Vec<String> =
         stem.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).map(str::to_lowercase).collect();
     // File systems take 255 bytes; nobody reads that far.
     let name: String = words.join("-").chars().take(60).collect();
-    format!("{}.png", if name.is_empty() { "scene" } else { &name })
+    if name.is_empty() { "scene".to_owned() } else { name }
 }
 
 /// Writes a picture as PNG.

@@ -2,6 +2,7 @@
 
 use super::args::Method;
 use super::frames::Frames;
+use super::html::Recording;
 use super::settings::Settings;
 use super::timing::Seconds;
 use crate::args::name;
@@ -28,6 +29,7 @@ pub struct Watcher<'a, V> {
     first: Option<f64>,
     unit: &'static str,
     frames: Option<Frames>,
+    recording: Option<Recording>,
     failed: Option<anyhow::Error>,
 }
 
@@ -37,7 +39,7 @@ impl<'a, V: Colour> Watcher<'a, V> {
         (settings, units): (&Settings, Units),
         patches: &'a Patches<V>,
         space: Option<&'a Space<'a>>,
-        frames: Option<Frames>,
+        (frames, recording): (Option<Frames>, Option<Recording>),
     ) -> Self {
         let n = space.map_or(patches.len(), Space::dim) as u64;
         // Reciprocity, A_i F_ij = A_j F_ji, halves the work where patches are tested as wholes or both as points.
@@ -51,12 +53,17 @@ impl<'a, V: Colour> Watcher<'a, V> {
             first: None,
             unit: units.exitance(),
             frames,
+            recording,
             failed: None,
         }
     }
 
-    /// The files of the frames, and the time of what was watched.
-    pub fn finish(self, solution: &Solution<V>, seconds: &mut Seconds) -> Result<Vec<PathBuf>> {
+    /// The files of the frames and what was recorded, and the time of what was watched.
+    pub fn finish(
+        self,
+        solution: &Solution<V>,
+        seconds: &mut Seconds,
+    ) -> Result<(Vec<PathBuf>, Option<Recording>)> {
         self.assembly.finish_and_clear();
         self.relaxation.finish_and_clear();
         if let Some(error) = self.failed {
@@ -64,11 +71,11 @@ impl<'a, V: Colour> Watcher<'a, V> {
         }
         seconds.form_factors = solution.assembly_seconds;
         seconds.solve = solution.solve_seconds;
-        let Some(mut frames) = self.frames else { return Ok(Vec::new()) };
+        let Some(mut frames) = self.frames else { return Ok((Vec::new(), self.recording)) };
         seconds.solve -= frames.recording;
         frames.finish(solution.report.residuals.len(), self.patches, &solution.radiosity)?;
         seconds.frames = frames.preparing + frames.recording;
-        Ok(frames.files)
+        Ok((frames.files, self.recording))
     }
 }
 
@@ -85,11 +92,15 @@ impl<V: Colour> Observer<V> for Watcher<'_, V> {
             self.relaxation.set_position((STEPS * done.clamp(0.0, 1.0)) as u64);
             self.relaxation.set_message(format!("iteration {iteration}, residual {norm:.1e} {}", self.unit));
         }
-        let Some(frames) = &mut self.frames else { return true };
-        let shown = || match self.space {
-            Some(space) => space.means(&relaxation.preview()),
-            None => relaxation.preview(),
+        let means = |values: Vec<V>| match self.space {
+            Some(space) => space.means(&values),
+            None => values,
         };
+        if let Some(recording) = &mut self.recording {
+            recording.record((iteration, norm <= target), self.patches, relaxation, means);
+        }
+        let Some(frames) = &mut self.frames else { return true };
+        let shown = || means(relaxation.preview());
         self.failed = frames.record(iteration, self.patches, shown).err();
         self.failed.is_none()
     }

@@ -96,7 +96,7 @@ impl Settings {
 }
 
 /// The choice that a scene file names.
-fn wish<T: ValueEnum>(key: &str, wish: Option<&str>, file: &Path) -> Result<Option<T>> {
+pub fn wish<T: ValueEnum>(key: &str, wish: Option<&str>, file: &Path) -> Result<Option<T>> {
     let Some(wish) = wish else { return Ok(None) };
     let Ok(choice) = T::from_str(wish, false) else {
         let known: Vec<String> = T::value_variants().iter().map(name).collect();

@@ -45,7 +45,7 @@ impl Colour for Spectrum<BANDS> {
 }
 
 /// How bright a colour is: Y of CIE 1931, in the unit of the colour.
-pub(crate) fn luminance(rgb: Rgb) -> f64 {
+pub fn luminance(rgb: Rgb) -> f64 {
     let [r, g, b] = rgb.0;
     0.2126 * r + 0.7152 * g + 0.0722 * b
 }

@@ -13,7 +13,7 @@ mod smooth;
 mod tone;
 mod view;
 
-pub use colour::Colour;
+pub use colour::{Colour, luminance};
 pub use false_colour::{Scale, false_colour, map_of_values};
 pub use final_picture::final_picture;
 pub use of_field::Sightings;

@@ -1,0 +1,151 @@
+//! `/scene.json` and `/geometry.bin`: what a page has to know of a scene before it sees light.
+
+use super::lamps::Lamp;
+use super::protocol::numbers;
+use super::solvers::Solver;
+use super::stage::ranges;
+use crate::radiosity::frames::exposure;
+use radiosity::patches::Patches;
+use radiosity::polygon::Polygon;
+use radiosity::render::Colour;
+use radiosity::scene::{Camera, Scene, Units};
+use radiosity::visibility::Visibility;
+use serde::Serialize;
+use std::ops::Range;
+
+/// The scene in words.
+#[derive(Clone, Debug, Serialize)]
+pub struct Description {
+    /// What it is called.
+    pub name: String,
+    /// How many patches.
+    pub patches: usize,
+    /// The longest that their edges may be, in metres.
+    pub patch_size: f64,
+    /// What numbers are in.
+    pub units: Symbols,
+    /// The surfaces, in the order of their patches.
+    pub surfaces: Vec<Surface>,
+    /// The lamps, in the order of their factors; none where nothing can be dimmed.
+    pub lamps: Vec<String>,
+    /// Where it is looked at from at first.
+    pub camera: Viewpoint,
+    /// From radiance to a screen on which 1 is white.
+    pub exposure: f64,
+    /// The solvers that can be watched, the first of which begins.
+    pub solvers: Vec<Solver>,
+    /// Whether F is stored, without which there is only shooting.
+    pub stored: bool,
+    /// The largest row sum of F, at most.
+    pub row_sum: f64,
+}
+
+/// Units, as they are printed.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Symbols {
+    exitance: &'static str,
+    irradiance: &'static str,
+    radiance: &'static str,
+    power: &'static str,
+    length: &'static str,
+}
+
+impl Symbols {
+    /// Of light in these units.
+    pub fn new(units: Units) -> Self {
+        let power = if units == Units::Photometric { "lm" } else { "W" };
+        Self {
+            exitance: units.exitance(),
+            irradiance: units.irradiance(),
+            radiance: units.radiance(),
+            power,
+            length: "m",
+        }
+    }
+}
+
+/// A surface.
+#[derive(Clone, Debug, Serialize)]
+pub struct Surface {
+    name: String,
+    /// The first of its patches, and the one after its last.
+    patches: [usize; 2],
+    reflectance: [f64; 3],
+    emission: [f64; 3],
+}
+
+/// A camera: metres, and degrees.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Viewpoint {
+    position: [f64; 3],
+    target: [f64; 3],
+    up: [f64; 3],
+    vertical_angle: f64,
+}
+
+impl From<Camera> for Viewpoint {
+    fn from(camera: Camera) -> Self {
+        Self {
+            position: camera.position.to_array(),
+            target: camera.target.to_array(),
+            up: camera.up.to_array(),
+            vertical_angle: camera.vertical_angle.to_degrees(),
+        }
+    }
+}
+
+impl Description {
+    /// Of a scene in patches, of which nothing can be dimmed and nothing solved.
+    pub fn new<V: Colour>(
+        (scene, units): (&Scene<V>, Units),
+        (patches, visibility): (&Patches<V>, &Visibility),
+        patch_size: f64,
+        camera: Camera,
+    ) -> Self {
+        let colour = |value: &V| -> [f64; 3] { value.to_rgb().0 };
+        let parts = ranges(&patches.surface, scene.surfaces.len());
+        let surfaces = scene.surfaces.iter().zip(parts).map(|(surface, Range { start, end })| Surface {
+            name: surface.name.clone(),
+            patches: [start, end],
+            reflectance: colour(&surface.reflectance),
+            emission: colour(&surface.emission),
+        });
+        Self {
+            name: scene.name.clone(),
+            patches: patches.len(),
+            patch_size,
+            units: Symbols::new(units),
+            surfaces: surfaces.collect(),
+            lamps: Vec::new(),
+            camera: camera.into(),
+            exposure: exposure(patches, visibility).scale,
+            solvers: Vec::new(),
+            stored: false,
+            row_sum: 1.0,
+        }
+    }
+
+    /// With what a page can change.
+    pub fn with(self, lamps: &[Lamp], first: Solver, stored: bool, row_sum: f64) -> Self {
+        let others = Solver::ALL.into_iter().filter(|solver| *solver != first && (stored || solver.shoots()));
+        Self {
+            lamps: lamps.iter().map(|lamp| lamp.name.clone()).collect(),
+            solvers: std::iter::once(first).chain(others).collect(),
+            stored,
+            row_sum,
+            ..self
+        }
+    }
+}
+
+/// The corners of patches, as the protocol has them.
+pub fn geometry(polygons: &[Polygon]) -> Vec<u8> {
+    let mut bytes = Vec::with_capacity(48 * polygons.len());
+    for polygon in polygons {
+        let corners = polygon.vertices();
+        let last = corners[corners.len() - 1];
+        let four = corners.iter().chain([&last; 4]).take(4);
+        numbers(&mut bytes, four.flat_map(|corner| corner.to_array()));
+    }
+    bytes
+}

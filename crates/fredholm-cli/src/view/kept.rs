@@ -1,0 +1,46 @@
+//! F as it is at hand: stored, or while it is not, computed row by row.
+
+use fredholm::operator::{Columns, Dense, Line, Matrix, OnTheFly, Rows};
+use radiosity::form_factor::FormFactors;
+
+/// Where the form factors come from.
+pub enum Kept<'a> {
+    /// All of them are stored.
+    Stored(&'a Dense<f32>),
+    /// Each is computed when it is asked for.
+    Computed(OnTheFly<&'a FormFactors<'a>>),
+}
+
+impl Matrix for Kept<'_> {
+    fn dim(&self) -> usize {
+        match self {
+            Self::Stored(matrix) => matrix.dim(),
+            Self::Computed(matrix) => matrix.dim(),
+        }
+    }
+
+    fn diagonal(&self, i: usize) -> f64 {
+        match self {
+            Self::Stored(matrix) => matrix.diagonal(i),
+            Self::Computed(matrix) => matrix.diagonal(i),
+        }
+    }
+}
+
+impl Rows for Kept<'_> {
+    fn row<'a>(&'a self, i: usize, buffer: &'a mut Vec<f64>) -> Line<'a> {
+        match self {
+            Self::Stored(matrix) => matrix.row(i, buffer),
+            Self::Computed(matrix) => matrix.row(i, buffer),
+        }
+    }
+}
+
+impl Columns for Kept<'_> {
+    fn column<'a>(&'a self, j: usize, buffer: &'a mut Vec<f64>) -> Line<'a> {
+        match self {
+            Self::Stored(matrix) => matrix.column(j, buffer),
+            Self::Computed(matrix) => matrix.column(j, buffer),
+        }
+    }
+}

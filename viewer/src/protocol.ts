@@ -1,0 +1,137 @@
+// What the page and the server say to each other; the table is in crates/fredholm-cli/src/view/protocol.rs.
+
+export type Solver = 'southwell' | 'gauss-seidel' | 'jacobi' | 'successive' | 'gmres';
+
+export interface Camera {
+  position: number[];
+  target: number[];
+  up: number[];
+  /** Degrees. */
+  vertical_angle: number;
+}
+
+export interface Surface {
+  name: string;
+  /** The first of its patches, and the one after its last. */
+  patches: [number, number];
+  reflectance: number[];
+  emission: number[];
+}
+
+export interface Scene {
+  name: string;
+  patches: number;
+  patch_size: number;
+  units: { exitance: string; irradiance: string; radiance: string; power: string; length: string };
+  surfaces: Surface[];
+  lamps: string[];
+  camera: Camera;
+  /** From radiance to a screen on which 1 is white. */
+  exposure: number;
+  solvers: Solver[];
+  stored: boolean;
+  row_sum: number;
+}
+
+export type Command =
+  | { type: 'start'; solvers: Solver[]; lamps: number[]; reflectance: number[][] }
+  | { type: 'play'; passes: number }
+  | { type: 'pause' }
+  | { type: 'step' }
+  | { type: 'factors'; patch: number }
+  | { type: 'relight'; reflectance: number[][]; version: number }
+  | { type: 'export'; format: 'csv' | 'npz' | 'json' | 'png'; camera?: Camera & { aspect: number } };
+
+export enum State {
+  Running,
+  Converged,
+  Diverged,
+  Stalled,
+}
+
+export const NONE = 0xffffffff;
+
+export interface Frame {
+  lane: number;
+  run: number;
+  iteration: number;
+  /** The patch shot last, or NONE. */
+  shot: number;
+  state: State;
+  /** Form factors used over n². */
+  work: number;
+  residual: number;
+  /** NaN where there is none. */
+  bound: number;
+  unshot: number;
+  /** B of each patch, three channels. */
+  radiosity: Float32Array;
+  /** |r| of each patch. */
+  rest: Float32Array;
+}
+
+export type Message =
+  | { type: 'assembly'; done: number; of: number }
+  | { type: 'started'; run: number; solvers: Solver[]; norm: number; target: number }
+  | { type: 'error'; message: string }
+  | { type: 'frame'; frame: Frame }
+  | { type: 'factors'; patch: number; row: Float32Array; column: Float32Array }
+  | { type: 'lamp'; lamp: number; version: number; state: State; radiosity: Float32Array }
+  | { type: 'file'; name: string; content: ArrayBuffer };
+
+/** Reads a binary message; `patches` is how many there are. */
+export function decode(bytes: ArrayBuffer, patches: number): Message {
+  const view = new DataView(bytes);
+  const word = (k: number): number => view.getUint32(4 * k, true);
+  switch (word(0)) {
+    case 1:
+      return { type: 'frame', frame: decodeFrame(bytes, patches) };
+    case 2:
+      return {
+        type: 'factors',
+        patch: word(1),
+        row: new Float32Array(bytes, 8, patches),
+        column: new Float32Array(bytes, 8 + 4 * patches, patches),
+      };
+    case 3:
+      return {
+        type: 'lamp',
+        lamp: word(1),
+        version: word(2),
+        state: word(3),
+        radiosity: new Float32Array(bytes, 16, 3 * patches),
+      };
+    case 4: {
+      const end = 8 + word(1);
+      return { type: 'file', name: new TextDecoder().decode(bytes.slice(8, end)), content: bytes.slice(end) };
+    }
+    default:
+      throw new Error(`a message of kind ${word(0)} is none`);
+  }
+}
+
+function decodeFrame(bytes: ArrayBuffer, patches: number): Frame {
+  const view = new DataView(bytes);
+  return {
+    ...decodeHead(view, 0),
+    radiosity: new Float32Array(bytes, 56, 3 * patches),
+    rest: new Float32Array(bytes, 56 + 12 * patches, patches),
+  };
+}
+
+/** The head of a frame, 56 bytes from `at`. */
+export function decodeHead(view: DataView, at: number): Omit<Frame, 'radiosity' | 'rest'> {
+  const word = (k: number): number => view.getUint32(at + 4 * k, true);
+  const number = (k: number): number => view.getFloat64(at + 24 + 8 * k, true);
+  return {
+    lane: word(1),
+    run: word(2),
+    iteration: word(3),
+    shot: word(4),
+    state: word(5),
+    work: number(0),
+    residual: number(1),
+    bound: number(2),
+    unshot: number(3),
+  };
+}
