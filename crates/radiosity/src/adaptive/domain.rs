@@ -40,7 +40,10 @@ pub struct TooManyFaces(pub usize);
 /// For so many faces what they see of each other takes some 2 GB.
 const MOST_FACES: usize = 6000;
 
-/// Points across a leaf in which it is asked whether something stands there.
+/// How far from a corner, on the way to the centre.
+const INSIDE: f64 = 1e-6;
+
+/// Points across a node in which it is asked whether something stands there.
 const LOOKS: usize = 8;
 
 /// Lamps are looked at from every point.
@@ -133,19 +136,26 @@ impl<'a, V: Value> Domain<'a, V> {
         self.outlook(face).is_buried(point)
     }
 
-    /// The part of a leaf that is not under something.
-    pub(super) fn share_in_sight(&self, leaf: &Node) -> f64 {
-        if !self.is_stood_on(leaf.face) {
-            return 1.0;
-        }
-        self.looked_at(leaf).filter(|x| !self.is_buried(leaf.face, *x)).count() as f64
-            / (LOOKS * LOOKS) as f64
+    /// The faces in patches of some diameter at most.
+    pub(super) fn tree(&self, size: f64) -> Tree {
+        let mut tree = Tree::new(self.faces, size);
+        self.expose(&mut tree.nodes);
+        tree
     }
 
-    /// Points spread over a leaf.
-    fn looked_at<'b>(&self, leaf: &'b Node) -> impl Iterator<Item = DVec3> + 'b {
-        let place = |k: usize| (k as f64 + 0.5) / LOOKS as f64;
-        (0..LOOKS * LOOKS).map(move |k| leaf.polygon.point(place(k % LOOKS), place(k / LOOKS)))
+    /// Cuts patches in four.
+    pub(super) fn cut(&self, tree: &mut Tree, patches: &[u32]) {
+        let known = tree.nodes.len();
+        patches.iter().for_each(|&patch| tree.cut(patch));
+        self.expose(&mut tree.nodes[known..]);
+    }
+
+    /// Finds what of nodes is not under something.
+    fn expose(&self, nodes: &mut [Node]) {
+        for node in nodes.iter_mut().filter(|node| self.is_stood_on(node.face)) {
+            let in_sight = looked_at(node).filter(|x| !self.is_buried(node.face, *x)).count();
+            node.exposed = node.area * in_sight as f64 / (LOOKS * LOOKS) as f64;
+        }
     }
 
     /// The point of a leaf at which it is asked what comes straight from the lamps: its centre, or where something stands
@@ -155,7 +165,10 @@ impl<'a, V: Value> Domain<'a, V> {
         if !self.is_buried(leaf.face, centre) {
             return centre;
         }
-        self.looked_at(leaf).find(|x| !self.is_buried(leaf.face, *x)).unwrap_or(centre)
+        // Of what a convex body leaves of a leaf some corner is a part.
+        let corners = leaf.polygon.vertices().iter().map(|v| v.lerp(centre, INSIDE));
+        let mut points = looked_at(leaf).chain(corners);
+        points.find(|x| !self.is_buried(leaf.face, *x)).unwrap_or(centre)
     }
 
     /// The way to the parts of the tree that a point of a face sees, and their form factors.
@@ -217,4 +230,10 @@ impl<'a, V: Value> Domain<'a, V> {
         }
         sum
     }
+}
+
+/// Points spread over a node.
+fn looked_at(node: &Node) -> impl Iterator<Item = DVec3> + '_ {
+    let place = |k: usize| (k as f64 + 0.5) / LOOKS as f64;
+    (0..LOOKS * LOOKS).map(move |k| node.polygon.point(place(k % LOOKS), place(k / LOOKS)))
 }

@@ -93,7 +93,7 @@ impl<V: Value> Field<'_, V> {
         let part = |leaf: u32| {
             let node = self.tree.node(leaf);
             let k = leaf as usize;
-            let irradiance = (self.direct[k] + self.smooth[k]) * self.domain.share_in_sight(node);
+            let irradiance = (self.direct[k] + self.smooth[k]) * (node.exposed / node.area);
             let radiosity = self.domain.emission(node.face) + self.domain.reflectance(node.face) * irradiance;
             Part { polygon: node.polygon.clone(), face: node.face, radiosity, irradiance }
         };

@@ -35,7 +35,7 @@ impl<V: Value> Field<'_, V> {
     }
 
     fn cut(mut self, patches: &[u32]) -> Self {
-        patches.iter().for_each(|&patch| self.tree.cut(patch));
+        self.domain.cut(&mut self.tree, patches);
         self.space = Space::new(self.domain, &self.tree);
         self.direct = self.domain.direct_at_leaves(&self.tree, self.direct);
         // The old leaves go on to send what they sent: they are seen as one, for all of their parts send the same.

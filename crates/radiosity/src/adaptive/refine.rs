@@ -65,7 +65,7 @@ pub(super) fn refined<V: Value>(field: Field<'_, V>, marked: &[u32], accuracy: f
         field.tolerance
     };
     let mut tree = field.tree.clone();
-    marked.iter().for_each(|&patch| tree.cut(patch));
+    field.domain.cut(&mut tree, marked);
     let space = Space::new(field.domain, &tree);
     let believed = |&patch: &u32| {
         let node = tree.node(patch);

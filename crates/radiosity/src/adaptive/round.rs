@@ -48,7 +48,7 @@ const VARIES: f64 = 0.5;
 impl<V: Value> Mesh<V> {
     /// The first one: light from lamps, and the ambient term that goes with it.
     pub fn first(domain: &Domain<'_, V>, accuracy: f64) -> Self {
-        let tree = Tree::new(domain.faces(), FIRST * domain.extent());
+        let tree = domain.tree(FIRST * domain.extent());
         let direct = domain.direct_at_leaves(&tree, Vec::new());
         let area: f64 = tree.leaves().map(|leaf| tree.node(leaf).area).sum();
         let mean = |value: &dyn Fn(&Node, u32) -> V| {
@@ -201,7 +201,7 @@ pub(super) fn first_tolerance(accuracy: f64, scale: f64) -> f64 {
 pub(super) fn variation_of<V: Value>(tree: &Tree, values: &[V]) -> Vec<f64> {
     let (mut low, mut high) = (values.to_vec(), values.to_vec());
     for (k, node) in tree.nodes.iter().enumerate().rev() {
-        for part in node.parts.clone() {
+        for part in node.parts.clone().filter(|&part| tree.node(part).exposed > 0.0) {
             low[k] = low[k].zip(low[part as usize], f64::min);
             high[k] = high[k].zip(high[part as usize], f64::max);
         }

@@ -166,11 +166,12 @@ fn nearest<V: Value>(domain: &Domain<'_, V>, tree: &Tree, patch: u32) -> Option<
     Some(weights.collect())
 }
 
-/// The mean over every node, of what is given for the leaves.
+/// The mean over what is in sight of every node, of what is given for the leaves.
 pub(super) fn average<V: Value>(tree: &Tree, values: &mut [V]) {
     for (k, node) in tree.nodes.iter().enumerate().rev().filter(|(_, node)| !node.parts.is_empty()) {
-        let parts = node.parts.clone();
-        let sum = parts.fold(V::splat(0.0), |sum, part| sum + values[part as usize] * tree.node(part).area);
-        values[k] = sum * (1.0 / node.area);
+        let parts = || node.parts.clone().map(|part| (values[part as usize], tree.node(part)));
+        let exposed: f64 = parts().map(|(_, part)| part.exposed).sum();
+        let sum = parts().fold(V::splat(0.0), |sum, (value, part)| sum + value * part.exposed);
+        values[k] = if exposed > 0.0 { sum * (1.0 / exposed) } else { V::splat(0.0) };
     }
 }

@@ -16,6 +16,8 @@ pub(super) struct Node {
     pub from_afar: FromAfar,
     /// The face that it is a part of.
     pub face: u32,
+    /// The area that is not under something, in m².
+    pub exposed: f64,
     /// Whether light is a polynomial on it.
     pub is_patch: bool,
     /// Its parts, none of a leaf.
@@ -122,6 +124,7 @@ impl Node {
     fn new(polygon: Polygon, face: u32) -> Self {
         Self {
             area: polygon.area(),
+            exposed: polygon.area(),
             diameter: polygon.diameter(),
             from_afar: FromAfar::new(&polygon),
             polygon,
