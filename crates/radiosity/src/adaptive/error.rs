@@ -3,7 +3,7 @@
 //!
 //! ‖r‖ is looked at in points that are no nodes. (I − A)⁻¹ A carries to the nodes what r is in the middle of the quarters of
 //! patches, as if it were so all over them. What leaves do not tell of û within themselves is told by what becomes of ∫ K û
-//! when quarters of patches, four times as large, stand for their leaves: a third of the difference, for the error falls with
+//! when four leaves stand for one: a third of the difference, for the error falls with
 //! the area. What links are wrong by is told by finer ones. To that, and to the iteration, ‖(I − A)⁻¹‖ = 1/(1 − λ) is applied, with
 //! the λ by which each sweep shrinks the residual: A is self-adjoint in the norm weighted by 1/ρ.
 
@@ -11,7 +11,8 @@ use super::field::Field;
 use super::links::{Coarseness, Links, gathered};
 use super::refine::square;
 use super::round::SWEEPS;
-use super::space::average;
+use super::space::{CHECKS, average};
+use super::tree::LEAVES;
 use fredholm::relax::{Relaxation, Stop, SuccessiveApproximation, relax};
 use fredholm::system::System;
 use fredholm::value::{Value, max_norm};
@@ -58,7 +59,7 @@ pub(super) fn bound<V: Value>(field: &Field<'_, V>) -> Bound {
     if scale == 0.0 {
         return Bound::default();
     }
-    let quarters = of_quarters(field);
+    let fours = of_fours(field);
     let finer = Coarseness::new(&field.variation, FINER * field.tolerance, FINER * field.accuracy);
     let look = |view: &mut _, (face, point): (u32, DVec3)| {
         if field.domain.is_buried(face, point) {
@@ -68,7 +69,7 @@ pub(super) fn bound<V: Value>(field: &Field<'_, V>) -> Bound {
         let seen = gathered(&links, &field.sent);
         let coarse = field.gathered(face, point, view);
         let differences =
-            [coarse - field.smooth_at(face, point, view), seen - coarse, seen - gathered(&links, &quarters)];
+            [coarse - field.smooth_at(face, point, view), seen - coarse, seen - gathered(&links, &fours)];
         differences.map(|difference| square(field.domain.reflectance(face) * difference))
     };
     let squares: Vec<[f64; 3]> = points(field).into_par_iter().map_init(Default::default, look).collect();
@@ -81,15 +82,15 @@ pub(super) fn bound<V: Value>(field: &Field<'_, V>) -> Bound {
     }
 }
 
-/// ‖(I − A)⁻¹ A r‖ for the r of the checks, each for its quarter. Rough patches have none: there û is f + A û at each point.
+/// ‖(I − A)⁻¹ A r‖ for the r of the checks, each for its quarter. Where û is f + A û, on rough
+/// patches, A still has the polynomial.
 fn carried<V: Value>(field: &Field<'_, V>) -> f64 {
     let Field { tree, space, looks, .. } = field;
     let mut residual = vec![V::splat(0.0); tree.nodes.len()];
     for (&patch, checks) in space.patches.iter().zip(&field.residuals) {
-        if !field.rough[patch as usize] {
-            for (quarter, r) in tree.node(patch).parts.clone().zip(checks) {
-                tree.node(quarter).parts.clone().for_each(|leaf| residual[leaf as usize] = *r);
-            }
+        let of_quarter = LEAVES / CHECKS;
+        for (k, leaf) in tree.leaves_of(patch).enumerate() {
+            residual[leaf as usize] = checks[k / of_quarter];
         }
     }
     average(tree, &mut residual);
@@ -110,13 +111,13 @@ fn carried<V: Value>(field: &Field<'_, V>) -> f64 {
 /// The residual of that, as part of its largest source.
 const CARRIED: f64 = 0.01;
 
-/// The radiosity with that of quarters of patches in place of their leaves'.
-fn of_quarters<V: Value>(field: &Field<'_, V>) -> Vec<V> {
+/// The radiosity with what four leaves have together in place of theirs.
+fn of_fours<V: Value>(field: &Field<'_, V>) -> Vec<V> {
     let mut values = field.sent.clone();
-    for quarter in field.space.patches.iter().flat_map(|&patch| field.tree.node(patch).parts.clone()) {
-        for leaf in field.tree.node(quarter).parts.clone() {
-            values[leaf as usize] = field.sent[quarter as usize];
-        }
+    for (k, node) in field.tree.nodes.iter().enumerate() {
+        node.parts.clone().filter(|&part| field.tree.is_leaf(part)).for_each(|leaf| {
+            values[leaf as usize] = field.sent[k];
+        });
     }
     values
 }

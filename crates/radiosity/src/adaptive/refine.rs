@@ -103,11 +103,16 @@ pub(super) fn residuals<V: Value>(field: &Field<'_, V>) -> Vec<[V; CHECKS]> {
         let rho = field.domain.reflectance(node.face);
         let nodes = field.space.range(k).len();
         let points = Element::of(&node.polygon).points(&node.polygon).skip(nodes);
-        let mut checks = points.zip(&field.looks[patch as usize][nodes..]);
+        let mut checks = points.zip(&field.looks[patch as usize][nodes..]).zip(node.parts.clone());
+        let is_holed = field.space.is_holed(patch);
         std::array::from_fn(|_| {
-            checks.next().map_or(V::splat(0.0), |(point, links)| {
-                rho * (gathered(links, &field.sent) - field.between(patch, point))
-            })
+            let Some(((point, links), quarter)) = checks.next() else { return V::splat(0.0) };
+            let believed =
+                if is_holed { field.smooth[quarter as usize] } else { field.between(patch, point) };
+            if is_holed && field.domain.is_buried(node.face, point) {
+                return V::splat(0.0);
+            }
+            rho * (gathered(links, &field.sent) - believed)
         })
     };
     (0..field.space.patches.len()).into_par_iter().map(of_patch).collect()

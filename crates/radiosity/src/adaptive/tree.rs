@@ -24,6 +24,9 @@ pub(super) struct Node {
     pub parts: Range<u32>,
 }
 
+/// How many leaves a patch has.
+pub(super) const LEAVES: usize = 64;
+
 /// Faces first, and parts always behind what they are parts of.
 #[derive(Clone, Debug)]
 pub(super) struct Tree {
@@ -102,7 +105,7 @@ impl Tree {
         (0..self.nodes.len() as u32).filter(|&node| self.node(node).is_patch)
     }
 
-    /// The leaves of a patch, sixty-four, quarter by quarter.
+    /// The leaves of a patch, quarter by quarter.
     pub fn leaves_of(&self, patch: u32) -> impl Iterator<Item = u32> + '_ {
         let parts = |node: u32| self.node(node).parts.clone();
         parts(patch).flat_map(parts).flat_map(parts)
