@@ -1,5 +1,6 @@
 //! What may be said on the command line.
 
+use crate::bake::args::{Bake, EXAMPLES as BAKE_EXAMPLES};
 use crate::compare::args::{Compare, EXAMPLES as COMPARE_EXAMPLES};
 use crate::problem::args::FORMULAS;
 use crate::radiosity::args::{EXAMPLES as RADIOSITY_EXAMPLES, Radiosity};
@@ -34,6 +35,9 @@ pub enum Command {
     /// Solve the diffuse light of a scene, B = E + ρ ∫ K B, and draw it
     #[command(after_help = RADIOSITY_EXAMPLES, allow_negative_numbers = true)]
     Radiosity(Box<Radiosity>),
+    /// Bake the light of a scene into a binary glTF, to an accuracy
+    #[command(after_help = BAKE_EXAMPLES)]
+    Bake(Box<Bake>),
     /// Watch the light of a scene converge, in a browser
     #[command(after_help = VIEW_EXAMPLES)]
     View(Box<View>),
@@ -48,6 +52,12 @@ pub enum Command {
 /// The name of a choice, as it is typed.
 pub fn name(choice: &impl ValueEnum) -> String {
     choice.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
+}
+
+/// A part of the whole, as a percentage.
+pub fn percent(text: &str) -> Result<f64, String> {
+    radiosity::scene::percent(text)
+        .ok_or_else(|| "write a percentage such as 1%, above 0 and below 100".to_owned())
 }
 
 /// A positive finite number.

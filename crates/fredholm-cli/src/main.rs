@@ -1,6 +1,7 @@
 //! The command `fredholm`: integral equations, and the light in a building as one of them.
 
 mod args;
+mod bake;
 mod compare;
 mod ending;
 mod json;
@@ -27,6 +28,7 @@ fn main() -> ExitCode {
         Command::Compare(args) => compare::command(&args),
         Command::Spectrum(args) => spectrum::command(&args),
         Command::Radiosity(args) => radiosity::command(&args),
+        Command::Bake(args) => bake::command(&args),
         Command::View(args) => view::command(&args),
         Command::Viewfactors(args) => viewfactors::command(&args),
         Command::Quadrature(args) => quadrature::command(&args),

@@ -24,6 +24,16 @@ pub fn columns(rows: &[Vec<String>]) -> String {
     rows.iter().map(line).collect()
 }
 
+/// A part of the whole as a percentage.
+pub fn percent(part: f64) -> String {
+    let percent = 100.0 * part;
+    match percent {
+        0.0 => "0 %".to_owned(),
+        small if small < 0.001 => format!("{small:.0e} %"),
+        _ => format!("{} %", short((percent * 1000.0).round() / 1000.0)),
+    }
+}
+
 /// A number at its shortest, without the last digits, which rounding makes.
 pub fn short(number: f64) -> String {
     let rounded: f64 = format!("{number:.11e}").parse().unwrap_or(number);

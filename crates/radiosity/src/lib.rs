@@ -37,7 +37,7 @@
 //! | 2–7 | [`adaptive`] | all of it to an accuracy that is asked for |
 //! | | [`view_factors`] | the F_ij of faces for other programs, each with its error |
 //! | 7 | [`reconstruct`] | from patches to the light at any point |
-//! | 8 | [`render`], [`export`] | pictures and files |
+//! | 8 | [`render`], [`bake`], [`export`] | pictures, light laid around the surfaces, files |
 //!
 //! The same equation with temperatures for light is heat by radiation: [`thermal`].
 //!
@@ -45,6 +45,7 @@
 //! diffuse; a polygon emits and reflects from its front and blocks from both sides.
 
 pub mod adaptive;
+pub mod bake;
 pub mod closure;
 pub mod elements;
 pub mod export;

@@ -1,6 +1,6 @@
 //! What may be said to `fredholm radiosity`.
 
-use crate::args::{at_least_one, number, positive, with_extension};
+use crate::args::{at_least_one, number, percent, positive, with_extension};
 use clap::{Args, ValueEnum};
 use radiosity::elements::Degree;
 use radiosity::solve;
@@ -356,12 +356,6 @@ fn size(text: &str) -> Result<Size, String> {
         .ok_or_else(|| {
             format!("write width and height as 640x480, not more than {MOST_PIXELS} pixels in all")
         })
-}
-
-/// A part of one: 1%, or 0.01.
-fn percent(text: &str) -> Result<f64, String> {
-    radiosity::scene::percent(text)
-        .ok_or_else(|| "write a percentage such as 1%, above 0 and below 100".to_owned())
 }
 
 fn png(text: &str) -> Result<PathBuf, String> {

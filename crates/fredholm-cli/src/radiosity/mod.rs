@@ -1,6 +1,6 @@
 //! The walk: a scene becomes patches, form factors, a solved field, a picture and files.
 
-mod accuracy;
+pub mod accuracy;
 pub mod args;
 mod domain;
 pub mod frames;

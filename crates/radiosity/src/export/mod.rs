@@ -1,5 +1,5 @@
 //! The solved field as a file: a row per patch, with all that the equation knows of it. View factors are written by
-//! [`factors`].
+//! [`factors`]; baked light as binary glTF ([`write_glb`]) and OpenEXR ([`write_exr`]).
 //!
 //! | column | unit | |
 //! |---|---|---|
@@ -18,9 +18,13 @@
 
 mod csv;
 pub mod factors;
+mod glb;
+mod lightmap;
 mod npz;
 
 pub use csv::write_csv;
+pub use glb::write_glb;
+pub use lightmap::write_exr;
 pub use npz::write_npz;
 
 use crate::patches::Patches;

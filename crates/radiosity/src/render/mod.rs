@@ -20,4 +20,5 @@ pub use of_field::Sightings;
 pub use picture::Picture;
 pub use preview::Preview;
 pub use tone::Exposure;
+pub(crate) use tone::srgb;
 pub use view::{Rays, View};

@@ -70,7 +70,7 @@ fn compress(level: f64) -> f64 {
 }
 
 /// The transfer curve of sRGB (IEC 61966-2-1), on [0, 1].
-fn srgb(linear: f64) -> f64 {
+pub(crate) fn srgb(linear: f64) -> f64 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 

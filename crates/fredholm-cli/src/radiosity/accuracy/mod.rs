@@ -72,7 +72,7 @@ pub fn walk<V: Colour>(
 }
 
 /// How near the error is, on the terminal.
-struct Progress {
+pub struct Progress {
     bar: ProgressBar,
     accuracy: f64,
 }
@@ -81,18 +81,21 @@ impl Progress {
     /// Steps of the bar, from an error of 1 to the accuracy on a logarithmic scale.
     const STEPS: f64 = 1000.0;
 
-    fn new(accuracy: f64) -> Self {
+    /// Towards an accuracy.
+    pub fn new(accuracy: f64) -> Self {
         Self { bar: bar("refinement", Self::STEPS as u64), accuracy }
     }
 
-    fn tell(&self, round: &Round) {
+    /// What a mesh has come to.
+    pub fn tell(&self, round: &Round) {
         let error = round.error;
         let done = (error.ln() / self.accuracy.ln()).clamp(0.0, 1.0);
         self.bar.set_position((Self::STEPS * done) as u64);
         self.bar.set_message(format!("{} patches, error {:.2} %", round.patches, 100.0 * error));
     }
 
-    fn finish(&self) {
+    /// Takes the bar away.
+    pub fn finish(&self) {
         self.bar.finish_and_clear();
     }
 }

@@ -2,7 +2,7 @@
 
 use super::report::Report;
 use crate::radiosity::table::{grouped, last, of_surfaces, smooth_normals};
-use crate::text;
+use crate::text::{self, percent};
 
 /// The table, a line per matter.
 pub fn table(report: &Report) -> String {
@@ -36,13 +36,4 @@ fn mesh(report: &Report) -> String {
         "{patches} patches of degree 2 with {factors} form factors, after {rounds} round{}",
         if rounds == 1 { "" } else { "s" }
     )
-}
-
-fn percent(part: f64) -> String {
-    let percent = 100.0 * part;
-    match percent {
-        0.0 => "0 %".to_owned(),
-        small if small < 0.001 => format!("{small:.0e} %"),
-        _ => format!("{} %", text::short((percent * 1000.0).round() / 1000.0)),
-    }
 }

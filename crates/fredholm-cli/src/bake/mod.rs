@@ -1,0 +1,117 @@
+//! `fredholm bake`: the light of a scene, to an accuracy, laid around its surfaces and written for other programs.
+
+pub mod args;
+mod report;
+
+use self::args::Bake;
+use self::report::Report;
+use crate::ending::Ending;
+use crate::json::{self, Json};
+use crate::output::{Output, clear_on_interrupt, refuse_twins};
+use crate::radiosity::accuracy::Progress;
+use crate::radiosity::outputs::stem;
+use crate::radiosity::timing::{Seconds, timed};
+use crate::terminal::{bar, warn};
+use anyhow::{Context, Result};
+use radiosity::adaptive::{Domain, Request, solve};
+use radiosity::bake::{Atlas, Lightmap};
+use radiosity::export::{write_exr, write_glb};
+use radiosity::render::Colour;
+use radiosity::scene::{Camera, Scene, SolveOptions, Units, cornell_box, load_in};
+use radiosity::visibility::Visibility;
+use serde_json::json;
+use std::io::Write;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// What light is baked to, unless something else is asked for.
+const ACCURACY: f64 = 0.01;
+
+/// `fredholm bake`.
+pub fn command(args: &Bake) -> Result<Ending> {
+    clear_on_interrupt()?;
+    if let Some(threads) = args.threads {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        pool.build_global().with_context(|| format!("cannot start {threads} threads"))?;
+    }
+    let start = Instant::now();
+    let Some(file) = &args.scene else {
+        return walk(&cornell_box(), Units::Radiometric, &SolveOptions::default(), args, start);
+    };
+    let loaded = load_in(file, args.photometric.then_some(Units::Photometric))?;
+    loaded.warnings.iter().try_for_each(warn)?;
+    match loaded.units {
+        Units::Photometric => walk(&loaded.grey(), loaded.units, &loaded.solve, args, start),
+        Units::Radiometric => walk(&loaded.scene, loaded.units, &loaded.solve, args, start),
+    }
+}
+
+/// From the loaded scene to the last file.
+fn walk<V: Colour>(
+    scene: &Scene<V>,
+    units: Units,
+    wishes: &SolveOptions,
+    args: &Bake,
+    start: Instant,
+) -> Result<Ending> {
+    let mut seconds = Seconds { load: start.elapsed().as_secs_f64(), ..Seconds::default() };
+    let accuracy = args.accuracy.or(wishes.accuracy).unwrap_or(ACCURACY);
+    let output = args.output.clone().unwrap_or_else(|| PathBuf::from(format!("{}.glb", stem(&scene.name))));
+    refuse_twins(&[Some(&output), args.irradiance.as_deref(), args.json.as_deref()])?;
+    let glb = Output::prepare(&output)?;
+    let exr = args.irradiance.as_deref().map(Output::prepare).transpose()?;
+    let json = args.json.as_deref().map(Json::prepare).transpose()?;
+
+    let polygons = scene.polygons();
+    // What does not fit is told before anything is solved.
+    let atlas = timed(&mut seconds.patches, || Atlas::new(&polygons, args.size))?;
+    let domain = timed(&mut seconds.visibility, || Domain::new(scene, &polygons))?;
+    let progress = Progress::new(accuracy);
+    let request = Request { accuracy, ..Request::default() };
+    let field = timed(&mut seconds.solve, || {
+        solve(&domain, &request, |round| {
+            progress.tell(round);
+            true
+        })
+    });
+    progress.finish();
+
+    let bound = field.bound();
+    let texel = 1.0 / atlas.density;
+    let bar = bar("texels", polygons.len() as u64);
+    let lightmap = timed(&mut seconds.picture, || {
+        let field = field.for_points(atlas.size * atlas.size);
+        Lightmap::new(atlas, &field, &polygons, &|done| bar.set_position(done as u64))
+    });
+    bar.finish_and_clear();
+
+    let camera =
+        scene.camera.unwrap_or_else(|| Camera::automatic(&polygons, &Visibility::new(&polygons), 1.0));
+    let (radiance, irradiance) = match units {
+        Units::Radiometric => ("W/(m² sr)", "W/m²"),
+        Units::Photometric => ("cd/m²", "lx"),
+    };
+    let extras = json!({
+        "quantity": "radiance that leaves the surface, B/π: emissive texture × emissiveStrength",
+        "unit": radiance, "error": bound.total(), "accuracy": accuracy,
+        "error_is": "of the radiosity that surfaces reflect, in the mean square over all of them, relative to its own",
+    });
+    let mut files = vec![timed(&mut seconds.write, || {
+        let mut bytes = Vec::new();
+        write_glb(scene, &lightmap, &camera, &extras, &mut bytes)?;
+        glb.write(|out| out.write_all(&bytes))
+    })?];
+    if let Some(exr) = exr {
+        let note = format!(
+            "irradiance H in {irradiance}, linear, Rec. 709; radiance added by a surface of reflectance ρ: ρ H/π; error {:.2} %",
+            100.0 * bound.total()
+        );
+        files.push(timed(&mut seconds.write, || exr.write(|out| write_exr(&lightmap, &note, out)))?);
+    }
+    files.extend(json.as_ref().and_then(Json::file));
+    seconds.total = start.elapsed().as_secs_f64();
+    let report =
+        Report::new(scene, accuracy, bound, (args.size, texel), [radiance, irradiance], seconds, files);
+    json::tell(json, &report, &report.table())?;
+    Ok(if report.is_met() { Ending::Converged } else { Ending::NotConverged })
+}

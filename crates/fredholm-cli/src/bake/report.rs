@@ -1,0 +1,113 @@
+//! The numbers of a baked scene: what `--json` writes and the table shows.
+
+use crate::radiosity::memory;
+use crate::radiosity::table::last;
+use crate::radiosity::timing::Seconds;
+use crate::text::{self, percent};
+use radiosity::adaptive::Bound;
+use radiosity::scene::Scene;
+use serde::Serialize;
+use std::path::PathBuf;
+
+/// The numbers of a run, in the order of the JSON. Errors are relative: of the mean square over all surfaces, to that of the
+/// light that they reflect.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    scene: String,
+    /// `met`, or `not met`.
+    outcome: &'static str,
+    accuracy: f64,
+    error: f64,
+    discretisation_error: f64,
+    form_factor_error: f64,
+    iteration_error: f64,
+    /// Texels across and down.
+    size: usize,
+    /// The side of a texel on a surface, in metres.
+    texel: f64,
+    polygons: usize,
+    /// Polygons that are lit about the normals of a curved surface.
+    smooth_normals: usize,
+    radiance_unit: &'static str,
+    irradiance_unit: &'static str,
+    seconds: Seconds,
+    peak_memory_bytes: Option<u64>,
+    files: Vec<PathBuf>,
+}
+
+impl Report {
+    /// The numbers of a scene on an atlas of so many texels of some size.
+    pub fn new<V>(
+        scene: &Scene<V>,
+        accuracy: f64,
+        bound: Bound,
+        (size, texel): (usize, f64),
+        [radiance_unit, irradiance_unit]: [&'static str; 2],
+        seconds: Seconds,
+        files: Vec<PathBuf>,
+    ) -> Self {
+        let error = bound.total();
+        Self {
+            scene: scene.name.clone(),
+            outcome: if error <= accuracy { "met" } else { "not met" },
+            accuracy,
+            error,
+            discretisation_error: bound.discretisation,
+            form_factor_error: bound.form_factors,
+            iteration_error: bound.iteration,
+            size,
+            texel,
+            polygons: scene.surfaces.iter().map(|surface| surface.polygons.len()).sum(),
+            smooth_normals: scene.curved_polygons(),
+            radiance_unit,
+            irradiance_unit,
+            seconds,
+            peak_memory_bytes: memory::peak(),
+            files,
+        }
+    }
+
+    /// Whether the light is as good as was asked.
+    pub fn is_met(&self) -> bool {
+        self.outcome == "met"
+    }
+
+    /// The table, a line per matter.
+    pub fn table(&self) -> String {
+        let met = if self.is_met() { "" } else { "; NOT MET: no more patches fit" };
+        let Self { size, polygons, .. } = self;
+        let mut lines = vec![
+            (
+                "error",
+                format!(
+                    "{} of the light that surfaces reflect, in the mean square{met}",
+                    percent(self.error)
+                ),
+            ),
+            (
+                "atlas",
+                format!(
+                    "{size} × {size} texels of {} m, {polygons} polygons",
+                    text::short(round(self.texel))
+                ),
+            ),
+            ("texture", format!("radiance B/π, in {}", self.radiance_unit)),
+        ];
+        if self.smooth_normals > 0 {
+            lines.push(("smooth normals", format!("of {} polygons", self.smooth_normals)));
+        }
+        lines.extend(last(self.peak_memory_bytes, false, &self.seconds, &self.files));
+        format!(
+            "{}: baked to an accuracy of {}\n\n{}",
+            self.scene,
+            percent(self.accuracy),
+            text::lines(&lines)
+        )
+    }
+}
+
+/// Three digits.
+fn round(number: f64) -> f64 {
+    let step = 10_f64.powf(number.log10().floor() - 2.0);
+    (number / step).round() * step
+}

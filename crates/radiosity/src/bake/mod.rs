@@ -1,0 +1,51 @@
+//! A solved field as a picture that is laid around the surfaces: B and H in every texel of an [`Atlas`].
+//!
+//! Light comes straight from lamps to each texel by formula, so that shadows are as sharp as texels are; the rest is the
+//! field's. Texels beside a polygon have what is at the nearest point of it: bilinear filters never mix in what is not lit.
+
+mod atlas;
+
+pub use atlas::{Atlas, Crowded};
+
+use crate::adaptive::Field;
+use crate::polygon::Polygon;
+use fredholm::value::Value;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Light in every texel of an atlas, row by row from above.
+#[derive(Clone, Debug)]
+pub struct Lightmap<V> {
+    /// Where each polygon is.
+    pub atlas: Atlas,
+    /// The radiosity B, in W/m² or lm/m²; 0 where nothing is.
+    pub radiosity: Vec<V>,
+    /// The irradiance H, in W/m² or lx; 0 where nothing is.
+    pub irradiance: Vec<V>,
+}
+
+impl<V: Value> Lightmap<V> {
+    /// Looks at the field in every texel. `polygons` are those of the field, in its order; `progress` is told how many of
+    /// them are done.
+    pub fn new(
+        atlas: Atlas,
+        field: &Field<'_, V>,
+        polygons: &[Polygon],
+        progress: &(dyn Fn(usize) + Sync),
+    ) -> Self {
+        let done = AtomicUsize::new(0);
+        let light = |(k, polygon): (usize, &Polygon)| {
+            let texels = atlas.texels(k, polygon);
+            let light = field.seen(texels.iter().map(|(_, point)| (k as u32, *point)));
+            progress(done.fetch_add(1, Ordering::Relaxed) + 1);
+            texels.into_iter().zip(light).map(|((texel, _), light)| (texel, light)).collect::<Vec<_>>()
+        };
+        let lit: Vec<_> = polygons.par_iter().enumerate().map(light).collect();
+        let dark = vec![V::splat(0.0); atlas.size * atlas.size];
+        let (mut radiosity, mut irradiance) = (dark.clone(), dark);
+        for (texel, [b, h]) in lit.into_iter().flatten() {
+            (radiosity[texel], irradiance[texel]) = (b, h);
+        }
+        Self { atlas, radiosity, irradiance }
+    }
+}
