@@ -220,7 +220,7 @@ pub struct Radiosity {
     pub json: Option<PathBuf>,
 
     /// What is known of each patch, as a table or as NumPy arrays
-    #[arg(long, value_name = "FILE.csv|.npz", value_parser = patches, help_heading = "Output")]
+    #[arg(long, value_name = "FILE.csv|.npz|.vtu", value_parser = patches, help_heading = "Output")]
     pub patches: Option<PathBuf>,
 }
 
@@ -367,7 +367,7 @@ fn html(text: &str) -> Result<PathBuf, String> {
 }
 
 fn patches(text: &str) -> Result<PathBuf, String> {
-    with_extension(text, &["csv", "npz"])
+    with_extension(text, &["csv", "npz", "vtu"])
 }
 
 #[cfg(test)]

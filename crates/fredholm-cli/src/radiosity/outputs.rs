@@ -6,7 +6,7 @@ use crate::output::{Folder, Output, refuse_twins};
 use anyhow::Result;
 use fredholm::value::Value;
 use image::{ImageFormat, RgbImage};
-use radiosity::export::{Field, write_csv, write_npz};
+use radiosity::export::{Field, write_csv, write_npz, write_vtu};
 use std::io::{self, Cursor, Write};
 use std::path::{Path, PathBuf};
 
@@ -71,15 +71,16 @@ pub fn write_png(output: Output, image: &RgbImage) -> Result<PathBuf> {
 
 /// Writes the field in the format that the file's name asks for.
 pub fn write_field<V: Value>(output: Output, field: &Field<'_, V>) -> Result<PathBuf> {
-    let is_npz = output.path().extension().is_some_and(|extension| extension.eq_ignore_ascii_case("npz"));
-    match is_npz {
-        true => {
+    let extension = output.path().extension().unwrap_or_default().to_ascii_lowercase();
+    match extension.to_str() {
+        Some("npz") => {
             // The archive is made whole first: its writer, dropped on a full disk, complains on its own.
             let mut bytes = Cursor::new(Vec::new());
             write_npz(field, &mut bytes)?;
             output.write(|out| out.write_all(bytes.get_ref()))
         }
-        false => output.write(|out| -> io::Result<()> { write_csv(field, out) }),
+        Some("vtu") => output.write(|out| -> io::Result<()> { write_vtu(field, out) }),
+        _ => output.write(|out| -> io::Result<()> { write_csv(field, out) }),
     }
 }
 

@@ -21,11 +21,13 @@ pub mod factors;
 mod glb;
 mod lightmap;
 mod npz;
+mod vtu;
 
 pub use csv::write_csv;
 pub use glb::write_glb;
 pub use lightmap::write_exr;
 pub use npz::write_npz;
+pub use vtu::write_vtu;
 
 use crate::patches::Patches;
 use crate::scene::{Scene, Units};

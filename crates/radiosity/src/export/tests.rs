@@ -114,3 +114,36 @@ fn npz_has_every_array_in_its_shape() {
     let names: Vec<String> = archive.by_name("surface_names").unwrap().unwrap().into_vec().unwrap();
     assert_eq!(names, ["a, \"b\"", "tür"]);
 }
+
+#[test]
+fn vtk_has_a_cell_for_each_patch() {
+    use vtkio::model::{Attribute, DataSet, Piece, VertexNumbers, Vtk};
+    let (patches, bytes) = written(|field| {
+        let mut bytes = Vec::new();
+        write_vtu(field, &mut bytes).unwrap();
+        bytes
+    });
+    let vtk = Vtk::parse_xml(Cursor::new(bytes)).unwrap();
+    let DataSet::UnstructuredGrid { pieces, .. } = vtk.data else { panic!("another kind of grid") };
+    let Piece::Inline(piece) = &pieces[0] else { panic!("a piece elsewhere") };
+    let VertexNumbers::XML { offsets, .. } = &piece.cells.cell_verts else { panic!("a legacy file") };
+    let ends: Vec<u64> = patches
+        .polygons
+        .iter()
+        .scan(0, |end, polygon| {
+            *end += polygon.vertices().len() as u64;
+            Some(*end)
+        })
+        .collect();
+    assert_eq!(*offsets, ends);
+    let corners: Vec<f64> =
+        patches.polygons.iter().flat_map(|p| p.vertices().iter().flat_map(|v| v.to_array())).collect();
+    assert_eq!(piece.points.cast_into::<f64>().unwrap(), corners);
+    let Attribute::DataArray(array) =
+        piece.data.cell.iter().find(|a| a.name() == "radiosity (W/m²)").unwrap()
+    else {
+        panic!("another kind of attribute")
+    };
+    let expected: Vec<f64> = radiosity(&patches).iter().flat_map(|b| b.0).collect();
+    assert_eq!(array.data.cast_into::<f64>().unwrap(), expected);
+}

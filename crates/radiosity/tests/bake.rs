@@ -1,0 +1,142 @@
+//! Baked light, read back by a library that did not write it.
+
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
+use exr::prelude::{ReadChannels, ReadLayers, read};
+use fredholm::value::Rgb;
+use glam::DVec3;
+use radiosity::adaptive::{Domain, Field, Request, solve};
+use radiosity::bake::{Atlas, Lightmap};
+use radiosity::export::{write_exr, write_glb};
+use radiosity::polygon::Polygon;
+use radiosity::scene::{Camera, Scene, cornell_box};
+use std::f64::consts::{FRAC_1_PI, PI};
+use std::io::Cursor;
+
+const SIZE: usize = 128;
+
+fn camera() -> Camera {
+    Camera {
+        position: DVec3::new(0.3, 0.3, -0.8),
+        target: DVec3::new(0.3, 0.3, 0.3),
+        up: DVec3::Y,
+        vertical_angle: 0.7,
+    }
+}
+
+fn baked<R>(look: impl FnOnce(&Scene<Rgb>, &[Polygon], &Field<'_, Rgb>, &Lightmap<Rgb>) -> R) -> R {
+    let scene = cornell_box();
+    let polygons = scene.polygons();
+    let domain = Domain::new(&scene, &polygons).unwrap();
+    let field = solve(&domain, &Request { accuracy: 0.1, ..Request::default() }, |_| true);
+    let lightmap = Lightmap::new(Atlas::new(&polygons, SIZE).unwrap(), &field, &polygons, &|_| ());
+    look(&scene, &polygons, &field, &lightmap)
+}
+
+/// IEC 61966-2-1, backwards.
+fn linear(byte: u8) -> f64 {
+    let c = f64::from(byte) / 255.0;
+    if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+}
+
+#[test]
+fn a_gltf_shows_the_radiance_of_every_surface() {
+    baked(|scene, polygons, field, lightmap| {
+        let mut bytes = Vec::new();
+        let extras = serde_json::json!({ "unit": "W/(m² sr)" });
+        write_glb(scene, lightmap, &camera(), &extras, &mut bytes).unwrap();
+        let (document, buffers, images) = gltf::import_slice(&bytes).unwrap();
+        assert_eq!(document.meshes().count(), scene.surfaces.len());
+        let texture = &images[0];
+        assert_eq!((texture.width, texture.height), (SIZE as u32, SIZE as u32));
+        let mut first = 0;
+        for (mesh, surface) in document.meshes().zip(&scene.surfaces) {
+            assert_eq!(mesh.name(), Some(surface.name.as_str()));
+            let primitive = mesh.primitives().next().unwrap();
+            let reader = primitive.reader(|buffer| Some(&buffers[buffer.index()]));
+            let positions: Vec<[f32; 3]> = reader.read_positions().unwrap().collect();
+            let places: Vec<[f32; 2]> = reader.read_tex_coords(0).unwrap().into_f32().collect();
+            let corners: Vec<usize> = reader.read_indices().unwrap().into_u32().map(|k| k as usize).collect();
+            let strength = f64::from(primitive.material().emissive_strength().unwrap());
+            let vector = |k: usize| DVec3::from(positions[k].map(f64::from));
+            let area: f64 = corners
+                .chunks(3)
+                .map(|t| 0.5 * (vector(t[1]) - vector(t[0])).cross(vector(t[2]) - vector(t[0])).length())
+                .sum();
+            assert!((area / surface.area() - 1.0).abs() < 1e-6, "{}", surface.name);
+            // In the middle of each triangle, where the nearest texel is at most half a diagonal away.
+            for corner in corners.chunks(3) {
+                let third = |k: usize| corner.iter().map(|&c| f64::from(places[c][k])).sum::<f64>() / 3.0;
+                let [x, y] = [third(0), third(1)].map(|c| (c * SIZE as f64) as usize);
+                let pixel = &texture.pixels[3 * (y * SIZE + x)..][..3];
+                let middle = corner.iter().map(|&c| vector(c)).sum::<DVec3>() / 3.0;
+                let face = (first..first + surface.polygons.len())
+                    .min_by(|&a, &b| {
+                        let outside = |k: usize| {
+                            polygons[k].distance_outside(middle) + polygons[k].height_of(middle).abs()
+                        };
+                        outside(a).total_cmp(&outside(b))
+                    })
+                    .unwrap();
+                let expected = field.radiosity(face as u32, middle).0.map(|b| b * FRAC_1_PI);
+                for (byte, expected) in pixel.iter().zip(expected) {
+                    let got = linear(*byte) * strength;
+                    // Light changes by so much within a texel of 2 cm.
+                    assert!(
+                        (got - expected).abs() < 0.08 * strength,
+                        "{}: {got} for {expected}",
+                        surface.name
+                    );
+                }
+            }
+            first += surface.polygons.len();
+        }
+        let looks = document.nodes().find(|node| node.camera().is_some()).unwrap();
+        assert!(matches!(
+            looks.camera().unwrap().projection(),
+            gltf::camera::Projection::Perspective(p) if (p.yfov() - 0.7).abs() < 1e-6
+        ));
+    });
+}
+
+#[test]
+fn openexr_has_the_irradiance_and_its_unit() {
+    baked(|_, _, _, lightmap| {
+        let mut bytes = Vec::new();
+        write_exr(lightmap, "irradiance in W/m²", &mut bytes).unwrap();
+        let image = read()
+            .no_deep_data()
+            .largest_resolution_level()
+            .rgb_channels(
+                |size, _| vec![[0.0_f32; 3]; size.0 * size.1],
+                |pixels, at, (r, g, b): (f32, f32, f32)| pixels[at.1 * SIZE + at.0] = [r, g, b],
+            )
+            .first_valid_layer()
+            .all_attributes()
+            .from_buffered(Cursor::new(bytes))
+            .unwrap();
+        let pixels = &image.layer_data.channel_data.pixels;
+        for (got, expected) in pixels.iter().zip(&lightmap.irradiance) {
+            assert_eq!(*got, expected.0.map(|c| c as f32));
+        }
+        assert!(image.layer_data.attributes.comments.unwrap().to_string().contains("W/m²"));
+        // The lamp's power is 1 in all, and all of it arrives somewhere first.
+        assert!(lightmap.irradiance.iter().any(|h| h.0[0] > 0.1 * PI));
+    });
+}
+
+#[test]
+fn the_same_bytes_come_from_any_number_of_threads() {
+    let bytes = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            baked(|scene, _, _, lightmap| {
+                let mut bytes = Vec::new();
+                write_glb(scene, lightmap, &camera(), &serde_json::json!({}), &mut bytes).unwrap();
+                write_exr(lightmap, "", &mut bytes).unwrap();
+                bytes
+            })
+        })
+    };
+    assert!(bytes(1) == bytes(3));
+}
