@@ -67,6 +67,7 @@ pub fn load(path: &Path) -> Result<Loaded, Error> {
 /// As of [`load`], and when a photometric scene has colours.
 pub fn load_in(path: &Path, units: Option<Units>) -> Result<Loaded, Error> {
     let loaded = read(path, units)?;
+    loaded.check_masks()?;
     loaded.scene.check_light().map_err(|problem| problem.at(Place::file(path)))?;
     Ok(loaded)
 }

@@ -36,6 +36,8 @@ pub(super) struct Group {
     /// For each face the number of polygons up to its end, and where it stands.
     faces: Vec<(usize, Spot)>,
     pub is_obstruction: bool,
+    /// Another group, by its number in the mesh, upon a part of which this lies; both are of one face.
+    pub masks: Option<usize>,
     /// Another group, by its number in the mesh; both are of one face.
     pub combined_with: Option<usize>,
 }
@@ -140,8 +142,8 @@ pub(super) struct MaterialName {
 
 impl Group {
     pub fn new(name: Option<String>, material: Option<MaterialName>) -> Self {
-        let (polygons, faces, is_obstruction, combined_with) = Default::default();
-        Self { name, material, polygons, faces, is_obstruction, combined_with }
+        let (polygons, faces, is_obstruction, masks, combined_with) = Default::default();
+        Self { name, material, polygons, faces, is_obstruction, masks, combined_with }
     }
 
     /// Adds a face, in its polygons.
@@ -200,6 +202,7 @@ pub(super) fn assemble(
                 polygons: polygons + range.start..polygons + range.end,
                 place: Some(Place::spot(&mesh.file, spot)),
                 is_obstruction: group.is_obstruction,
+                masks: group.masks.map(|other| first_face + other),
                 combined_with: group.combined_with.map(|other| first_face + other),
             }));
             polygons += group.polygons.len();
