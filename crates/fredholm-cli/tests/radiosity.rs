@@ -69,6 +69,8 @@ fn smooth_normals_are_counted_and_can_be_left_out() {
         assert!(output.status.success(), "{}", text(&output.stderr));
         let told = text(&output.stderr);
         assert!(told.contains("warning: tent.obj:17: 1 face is drawn flat here: not every corner"), "{told}");
+        assert_eq!(json(&output.stdout)["clean_up"]["faces_drawn_flat"], 1);
+        assert!(told.contains("clean-up      1 faces drawn flat, for wrong normals"), "{told}");
         let count = json(&output.stdout)["smooth_normals"].as_u64().unwrap();
         assert_eq!(told.contains("normals       of 2 polygons, in the picture"), count > 0, "{told}");
         (count, fs::read(folder.join("a.png")).unwrap())

@@ -31,7 +31,7 @@ factor and row sum is as exact as was asked.";
 /// Options of `fredholm viewfactors`.
 #[derive(Debug, Args)]
 pub struct ViewFactors {
-    /// The faces: a mesh in metres (.obj, .stl, .ply, .vs3), or a scene (.toml)
+    /// The faces: a mesh in metres (.obj, .glb, .gltf, .stl, .ply, .vs3), or a scene (.toml)
     pub mesh: PathBuf,
 
     /// Factors between groups (`g`, `o` or material) in place of faces

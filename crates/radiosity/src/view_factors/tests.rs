@@ -158,10 +158,8 @@ fn reflections_are_all_bounces_and_errors_go_with_them() {
     };
     let factors = factors(n, Storage::Double);
     let (found, expected) = (factors.with_reflections(&emittances), script(&factors, &emittances));
-    for i in 0..n {
-        for j in 0..n {
-            assert!((found.factor(i, j) - expected[i][j]).abs() < 1e-12, "{i} {j}");
-        }
+    for (i, row) in expected.iter().enumerate() {
+        assert!(found.row(i).zip(row).all(|(found, expected)| (found - expected).abs() < 1e-12), "{i}");
     }
     assert!(found.reciprocity_defect() < 1e-15);
     assert_eq!(

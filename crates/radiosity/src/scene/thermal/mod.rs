@@ -139,7 +139,7 @@ impl<'a> Reader<'a> {
             return Err(malformed("a thermal scene needs `unit` and `meshes`, or an [enclosure]", file()));
         };
         let groups = mesh::named(self.source.meshes(names, metres)?);
-        for (name, group) in groups.iter().filter(|(_, group)| group.masks.is_some()) {
+        if let Some((name, group)) = groups.iter().find(|(_, group)| group.masks.is_some()) {
             let place = group.material.as_ref().map_or_else(file, |material| material.place.clone());
             return Err(malformed(face::masking_message(name), place));
         }
