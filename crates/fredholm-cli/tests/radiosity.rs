@@ -57,7 +57,7 @@ fn the_json_alone_is_on_the_standard_output() {
 /// A tent of two faces with a normal over its ridge, and a lamp.
 const TENT: &str = "mtllib tent.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 0 0.5\nv -1 0 0.5\nv 1 1 0\nv -1 1 0\nv 0 -2 3\nv 1 -2 3\nv 0 -3 3\n\
     vn 0 0 1\nvn 0 -0.5 1\nvn 0 0.5 1\nusemtl cloth\nf 1//2 2//2 3//1 4//1\nf 4//1 3//1 5//3 6//3\nf 1//1 2//9 3//1\n\
-    usemtl lamp\nf 7 9 8\n";
+    usemtl lamp\nf 7 8 9\n";
 
 #[test]
 fn smooth_normals_are_counted_and_can_be_left_out() {
@@ -68,7 +68,9 @@ fn smooth_normals_are_counted_and_can_be_left_out() {
         let output = fredholm(&folder, &format!("radiosity tent.obj --size 32x32 --json - -o a.png {words}"));
         assert!(output.status.success(), "{}", text(&output.stderr));
         let told = text(&output.stderr);
-        assert!(told.contains("warning: tent.obj:16: 1 face is drawn flat here: not every corner"), "{told}");
+        assert!(told.contains("warning: tent.obj:17: 1 face is drawn flat here: not every corner"), "{told}");
+        assert_eq!(json(&output.stdout)["clean_up"]["faces_drawn_flat"], 1);
+        assert!(told.contains("clean-up      1 faces drawn flat, for wrong normals"), "{told}");
         let count = json(&output.stdout)["smooth_normals"].as_u64().unwrap();
         assert_eq!(told.contains("normals       of 2 polygons, in the picture"), count > 0, "{told}");
         (count, fs::read(folder.join("a.png")).unwrap())

@@ -290,21 +290,102 @@ fn the_control_line_of_a_view3d_file_is_followed() {
     );
 }
 
+/// Two surfaces, of which the first is flat, have 1/𝓕 = ρ₁/ε₁ + 1 + A₁/A₂ ρ₂/ε₂.
+#[test]
+fn reflections_are_put_into_the_factors_where_the_file_asks_for_them() {
+    let folder = folder("viewfactors_reflections");
+    let cube = view3d_cube("C emit=1 encl=1", 6);
+    let combined = ["w2", "w3", "w4", "w5"].iter().fold(cube.clone(), |text, name| {
+        let at = text.find(name).unwrap() - " 0 0.00 ".len();
+        format!("{}2{}", &text[..=at], &text[at + 2..])
+    });
+    fs::write(folder.join("two.vs3"), combined).unwrap();
+    let report = report(&folder, "two.vs3 -o a.out -o a.csv --tolerance 1e-6");
+    let (factors, errors) = (matrix(&report, "F"), matrix(&report, "error"));
+    let (emittances, areas): ([f64; 2], [f64; 2]) = ([0.95, 0.85], [1.0, 5.0]);
+    let straight = 1.0 / (0.05 / 0.95 + 1.0 + 0.2 * 0.15 / 0.85);
+    for i in 0..2 {
+        for j in 0..2 {
+            let expected = if i == j { emittances[i] - straight / areas[i] } else { straight / areas[i] };
+            let error = (factors[i][j] - expected).abs();
+            assert!(error <= errors[i][j] && errors[i][j] < 1e-6, "{i} {j}: {error:e} {:e}", errors[i][j]);
+        }
+    }
+    assert!(
+        report["emittance_defect"].as_f64().unwrap() < 1e-6
+            && report["closure_defect"].as_f64().unwrap() < 1e-6
+    );
+    assert_eq!(report["emittances"], serde_json::json!(emittances));
+    let written = text(&fs::read(folder.join("a.out")).unwrap());
+    assert!(written.lines().next().unwrap().trim_end().ends_with(" 0 1 1 2"), "{written}");
+    let first: f64 = written.lines().nth(2).unwrap().split(' ').next().unwrap().parse().unwrap();
+    assert!((first - factors[0][0]).abs() < 1e-11, "{written}");
+
+    fs::write(folder.join("six.vs3"), &cube).unwrap();
+    let output = fredholm(&folder, "viewfactors six.vs3");
+    let table = text(&output.stdout);
+    for words in [
+        "script F\n",
+        "emit=1: the factors are Hottel's script F",
+        "rows of script F add up to the emittances",
+        "script F  ",
+    ] {
+        assert!(table.contains(words), "no `{words}` in {table}");
+    }
+}
+
+/// A quarter of a wall is masked: it sees the mask, and the mask sees it.
+#[test]
+fn a_masking_surface_sees_its_base_alone() {
+    let folder = folder("viewfactors_mask");
+    // The walls see the back of the mask, and nothing checks their rows.
+    let cube = view3d_cube("C eps=1e-6", 6);
+    let corners = "V 11 0 0.5 0.5\nV 12 0 1 0.5\nV 13 0 1 1\nV 14 0 0.5 1\n";
+    // The first face of the cube is its wall x = 0.
+    let factors_of = |name: &str, part: &str| {
+        fs::write(folder.join(name), format!("{cube}{corners}{part}")).unwrap();
+        let report = report(&folder, name);
+        assert!(
+            report["closed"].as_bool().unwrap()
+                && report["closure_rows"] == 2 - u64::from(part.starts_with('N'))
+        );
+        (report["areas"].clone(), matrix(&report, "F"), report["closure_defect"].as_f64().unwrap())
+    };
+    let (areas, masked, defect) = factors_of("mask.vs3", "M 7 14 13 12 11 1 0 0.5 mask\n");
+    let (null_areas, null, null_defect) = factors_of("null.vs3", "N 7 14 13 12 11 1 0 0.5 null\n");
+    assert!(defect < 1e-6 && null_defect < 1e-6, "{defect:e} {null_defect:e}");
+    assert_eq!(
+        (areas[0].as_f64(), areas[6].as_f64(), null_areas[0].as_f64()),
+        (Some(1.0), Some(0.25), Some(0.75))
+    );
+    assert_eq!(masked[6], [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    assert_eq!((masked[0][6], masked[1][6]), (0.25, 0.0));
+    for j in 1..6 {
+        assert!((masked[0][j] - 0.75 * null[0][j]).abs() < 1e-7, "{j}");
+        assert!((masked[j][0] - null[j][0]).abs() < 1e-7, "{j}");
+    }
+    for words in ["radiosity", "radiosity --thermal"] {
+        fs::write(folder.join("mask.toml"), "unit = 'm'\nmeshes = ['mask.vs3']\n").unwrap();
+        let message = text(&fredholm(&folder, &format!("{words} mask.toml")).stderr);
+        assert!(message.contains("mask.vs3:22: `mask` is a masking surface (`M`)"), "{message}");
+    }
+}
+
 #[test]
 fn what_a_view3d_file_asks_for_and_does_not_get_is_told() {
     let folder = folder("viewfactors_control_not_done");
-    fs::write(folder.join("open.vs3"), view3d_cube("C encl=1 emit=1 row=2 out=2", 5)).unwrap();
+    fs::write(folder.join("open.vs3"), view3d_cube("C encl=1 row=2 out=2", 5)).unwrap();
     fs::write(folder.join("plain.vs3"), view3d_cube("C out=0", 6)).unwrap();
     let output = fredholm(&folder, "viewfactors open.vs3 -o a.out -o b.vfb");
     assert!(output.status.success());
     let told = text(&output.stderr);
-    for word in ["`emit=1`", "`row=2`", "`out=2`", "`encl=1`"] {
+    for word in ["`row=2`", "`out=2`", "`encl=1`"] {
         assert!(
             told.lines().any(|line| line.starts_with("warning: open.vs3:2: ") && line.contains(word)),
             "{told}"
         );
     }
-    assert_eq!(told.lines().count(), 4 + 1, "and that edges are open: {told}");
+    assert_eq!(told.lines().count(), 3 + 1, "and that edges are open: {told}");
     let table = text(&output.stdout);
     assert!(table.contains("open, ALTHOUGH THE FILE SAYS encl=1: "), "{table}");
     assert!(table.contains("1.0e-4 allowed"), "the default: {table}");
@@ -374,7 +455,7 @@ const BAD: &[Case] = &[
     ("cube.obj -o a.csv -o a.csv", 1, &["two outputs", "a.csv"]),
     ("cube.obj -o a.csv --json a.csv", 1, &["two outputs", "a.csv"]),
     ("cube.obj --json .", 1, &["it is a folder"]),
-    ("masked.vs3", 1, &["masked.vs3:18", "masking surfaces", "`N`"]),
+    ("masked.vs3", 1, &["masked.vs3:18", "masking surface 7 has no base"]),
     ("eps.vs3", 1, &["eps.vs3:2", "`eps=0`", "positive"]),
     ("out.vs3", 1, &["out.vs3:2", "`out=3`"]),
 ];
@@ -385,7 +466,7 @@ fn bad_input_is_told_in_one_message() {
     fs::write(folder.join("empty.obj"), "").unwrap();
     fs::write(folder.join("mesh.xyz"), "0 0 0\n").unwrap();
     fs::write(folder.join("flat.obj"), "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n").unwrap();
-    let masked = view3d_cube("C encl=1", 6) + "M 7 1 2 3 4 1 0 0.9 mask\n";
+    let masked = view3d_cube("C encl=1", 6) + "M 7 1 2 4 3 0 0 0.9 mask\n";
     fs::write(folder.join("masked.vs3"), masked).unwrap();
     fs::write(folder.join("eps.vs3"), view3d_cube("C eps=0", 6)).unwrap();
     fs::write(folder.join("out.vs3"), view3d_cube("C out=3", 6)).unwrap();

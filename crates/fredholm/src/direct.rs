@@ -43,6 +43,44 @@ fn channel_matrix<V: Value, F: Rows>(system: &System<'_, V, F>, channel: usize) 
     matrix
 }
 
+/// N = (I − diag(ρ) F)⁻¹, the whole of it: what all bounces make of what each unknown sends.
+#[derive(Debug)]
+pub struct Resolvent(Mat<f64>);
+
+/// A matrix that a [`Resolvent`] has made.
+#[derive(Debug)]
+pub struct Product(Mat<f64>);
+
+impl Resolvent {
+    /// From ρ and the entries F_ij of a square matrix: O(n³) operations, and 24 n² bytes in work.
+    ///
+    /// A singular matrix gives entries that are not finite.
+    pub fn new(coefficient: &[f64], entry: impl Fn(usize, usize) -> f64) -> Self {
+        let n = coefficient.len();
+        let identity = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
+        let matrix = Mat::from_fn(n, n, |i, j| identity(i, j) - coefficient[i] * entry(i, j));
+        Self(matrix.partial_piv_lu().solve(Mat::from_fn(n, n, identity)))
+    }
+
+    /// L N, for a matrix L of these entries.
+    pub fn after(&self, left: impl Fn(usize, usize) -> f64) -> Product {
+        let n = self.0.nrows();
+        Product(Mat::from_fn(n, n, left) * &self.0)
+    }
+
+    /// Nᵀ D N, for a matrix D of these entries.
+    pub fn between(&self, middle: impl Fn(usize, usize) -> f64) -> Product {
+        Product(self.0.transpose() * self.after(middle).0)
+    }
+}
+
+impl Product {
+    /// The entry in row i and column j.
+    pub fn at(&self, i: usize, j: usize) -> f64 {
+        self.0[(i, j)]
+    }
+}
+
 /// The direct solver in the clothes of an iterative one: a single sweep from u = 0 finds the solution.
 #[derive(Debug)]
 pub struct Direct<'a, V, F> {

@@ -81,7 +81,12 @@ fn files() {
     check(
         "file",
         &[
-            alone("a.gltf", "{}", "a.gltf", &["`gltf`", ".obj", ".stl", ".ply", ".vs3", ".toml"]),
+            alone(
+                "a.fbx",
+                "{}",
+                "a.fbx",
+                &["`fbx`", ".obj", ".gltf", ".glb", ".stl", ".ply", ".vs3", ".toml"],
+            ),
             alone("a", "", "a", &["not read"]),
             alone(
                 "a.obj",
@@ -91,7 +96,7 @@ fn files() {
             ),
             alone("a.obj", &format!("{CORNERS}f 1 2 3"), "a.obj", &["no surface emits", "radiance", "Ke"]),
             alone("a.toml", "unit = 'm'\nmeshes = [\n'no.obj']", "a.toml:3", &["cannot read `no.obj`"]),
-            alone("a.toml", "unit = 'm'\nmeshes = ['a.gltf']", "a.toml:2", &["`gltf`", ".obj"]),
+            alone("a.toml", "unit = 'm'\nmeshes = ['a.fbx']", "a.toml:2", &["`fbx`", ".obj"]),
         ],
     );
     let missing = load(&PathBuf::from("missing/room.obj")).unwrap_err().to_string();

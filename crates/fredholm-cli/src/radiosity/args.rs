@@ -80,7 +80,7 @@ const WAYS: [&str; 13] = [
 /// Options of `fredholm radiosity`. What is `None` is left to the scene file, and then to a default.
 #[derive(Debug, Args)]
 pub struct Radiosity {
-    /// The scene: .toml, or a mesh in metres (.obj with its .mtl); the Cornell box if left out
+    /// The scene: .toml, or a mesh in metres (.obj with its .mtl, .glb, .gltf …); the Cornell box if left out
     #[arg(help_heading = "Scene")]
     pub scene: Option<PathBuf>,
 

@@ -36,7 +36,7 @@ use fredholm::value::Value;
 use radiosity::elements::Space;
 use radiosity::export::Field;
 use radiosity::render::Colour;
-use radiosity::scene::{Scene, SolveOptions, Units, cornell_box, cornell_box_spectral, load_in};
+use radiosity::scene::{CleanUp, Scene, SolveOptions, Units, cornell_box, cornell_box_spectral, load_in};
 use radiosity::solve::{Solution, solve, solve_elements};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -51,20 +51,21 @@ pub fn command(args: &Radiosity) -> Result<Ending> {
     }
     let start = Instant::now();
     let unsaid = SolveOptions::default();
-    let watts = Units::Radiometric;
+    let (watts, untouched) = (Units::Radiometric, CleanUp::default());
     match (&args.scene, args.bands) {
         (Some(file), _) if args.thermal => thermal::command(file, args, start),
-        (None, Bands::Rgb) => walk(&cornell_box(), watts, &unsaid, args, start),
-        (None, Bands::Spectral) => walk(&cornell_box_spectral(), watts, &unsaid, args, start),
+        (None, Bands::Rgb) => walk(&cornell_box(), (watts, untouched), &unsaid, args, start),
+        (None, Bands::Spectral) => walk(&cornell_box_spectral(), (watts, untouched), &unsaid, args, start),
         (Some(file), Bands::Rgb) => {
             let mut loaded = load_in(file, args.photometric.then_some(Units::Photometric))?;
             loaded.warnings.iter().try_for_each(warn)?;
             if args.flat {
                 loaded.scene = loaded.scene.flat();
             }
+            let mesh = (loaded.units, loaded.clean_up);
             match loaded.units {
-                Units::Photometric => walk(&loaded.grey(), loaded.units, &loaded.solve, args, start),
-                Units::Radiometric => walk(&loaded.scene, loaded.units, &loaded.solve, args, start),
+                Units::Photometric => walk(&loaded.grey(), mesh, &loaded.solve, args, start),
+                Units::Radiometric => walk(&loaded.scene, mesh, &loaded.solve, args, start),
             }
         }
         (Some(file), Bands::Spectral) => bail!(
@@ -77,13 +78,13 @@ pub fn command(args: &Radiosity) -> Result<Ending> {
 /// From the loaded scene to the last file.
 fn walk<V: Colour>(
     scene: &Scene<V>,
-    units: Units,
+    (units, clean_up): (Units, CleanUp),
     wishes: &SolveOptions,
     args: &Radiosity,
     start: Instant,
 ) -> Result<Ending> {
     if let Some(accuracy) = args.accuracy.or(wishes.accuracy.filter(|_| !args.has_ways())) {
-        return accuracy::walk(scene, units, accuracy, args, start);
+        return accuracy::walk(scene, (units, clean_up), accuracy, args, start);
     }
     picture::check_map(args.map, units)?;
     let mut seconds = Seconds { load: start.elapsed().as_secs_f64(), ..Seconds::default() };
@@ -118,7 +119,8 @@ fn walk<V: Colour>(
     }
     files.extend(json.as_ref().and_then(Json::file));
     seconds.total = start.elapsed().as_secs_f64();
-    let report = Report::new(&domain, (&settings, units), space.as_ref(), &solution, seconds, files);
+    let mut report = Report::new(&domain, (&settings, units), space.as_ref(), &solution, seconds, files);
+    report.clean_up = clean_up;
     json::tell(json, &report, &table(&report))?;
     Ok(if solution.report.outcome == Outcome::Converged { Ending::Converged } else { Ending::NotConverged })
 }

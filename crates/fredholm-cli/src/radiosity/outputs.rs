@@ -54,7 +54,10 @@ fn file_name(scene: &str) -> String {
 
 /// A name for the files of a scene: small letters, digits and hyphens, whatever the scene is called.
 pub fn stem(scene: &str) -> String {
-    let stem = [".obj", ".toml"].iter().find_map(|ending| scene.strip_suffix(ending)).unwrap_or(scene);
+    let stem = [".obj", ".toml", ".glb", ".gltf"]
+        .iter()
+        .find_map(|ending| scene.strip_suffix(ending))
+        .unwrap_or(scene);
     let words: Vec<String> =
         stem.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).map(str::to_lowercase).collect();
     // File systems take 255 bytes; nobody reads that far.

@@ -10,7 +10,7 @@ use fredholm::value::Value;
 use radiosity::closure::Closure;
 use radiosity::elements::Space;
 use radiosity::patches::Patches;
-use radiosity::scene::{Scene, Units};
+use radiosity::scene::{CleanUp, Scene, Units};
 use radiosity::solve::Solution;
 use serde::Serialize;
 use std::f64::consts::PI;
@@ -61,6 +61,8 @@ pub struct Report {
     pub point_lights: usize,
     /// How many polygons are drawn with the normals of a curved surface; the light on them is solved as if they were flat.
     pub smooth_normals: usize,
+    /// What the readers did to the mesh.
+    pub clean_up: CleanUp,
     /// Form factors computed.
     pub form_factors: u64,
     /// Rays cast for them.
@@ -180,6 +182,7 @@ impl Report {
             dark: solution.irradiance.iter().all(|h| h.magnitude() == 0.0),
             point_lights: domain.scene.lights.len(),
             smooth_normals: domain.scene.curved_polygons(),
+            clean_up: CleanUp::default(),
             form_factors: solution.form_factors,
             rays: solution.rays,
             seconds,

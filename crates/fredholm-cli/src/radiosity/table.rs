@@ -3,6 +3,7 @@
 use super::report::{Report, Surface};
 use super::timing::Seconds;
 use crate::text::{self, Digits};
+use radiosity::scene::CleanUp;
 use std::f64::consts::FRAC_1_PI;
 use std::path::PathBuf;
 
@@ -55,18 +56,28 @@ fn lines(report: &Report) -> Vec<(&'static str, String)> {
     if report.point_lights > 0 {
         lines.insert(0, ("point lights", grouped(report.point_lights as u64)));
     }
-    lines.extend(smooth_normals(report.smooth_normals));
+    lines.extend(of_mesh(report.smooth_normals, report.clean_up));
     lines.extend(last(report.peak_memory_bytes, report.dark, &report.seconds, &report.files));
     lines
 }
 
-/// How many polygons have them, if any.
-pub fn smooth_normals(count: usize) -> Option<(&'static str, String)> {
-    let words = format!(
-        "of {} polygons, in the picture: the light on them is solved as on flat ones",
-        grouped(count as u64)
-    );
-    (count > 0).then_some(("normals", words))
+/// How many polygons have smooth normals, and what was done to the mesh, if anything.
+pub fn of_mesh(smooth_normals: usize, clean_up: CleanUp) -> impl Iterator<Item = (&'static str, String)> {
+    let smooth = grouped(smooth_normals as u64);
+    let normals =
+        format!("of {smooth} polygons, in the picture: the light on them is solved as on flat ones");
+    let done = [
+        (clean_up.faces_without_area_left_out, "without area left out"),
+        (clean_up.faces_turned_round, "turned round, since their nodes mirror"),
+        (clean_up.faces_drawn_flat, "drawn flat, for wrong normals"),
+    ];
+    let done: Vec<String> = done
+        .iter()
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, what)| format!("{} faces {what}", grouped(*count as u64)))
+        .collect();
+    let normals = (smooth_normals > 0).then_some(("normals", normals));
+    normals.into_iter().chain((!done.is_empty()).then(|| ("clean-up", done.join("; "))))
 }
 
 /// What every table of light ends with; a scene in which no surface is lit is told.

@@ -14,7 +14,8 @@ Every factor comes with its own error. Reciprocity, A_i F_ij = A_j F_ji, holds b
 a closed mesh the rows miss 1 by what the errors are, unless --enforce makes them add up.
 
 Of the control line `C` of View3D's .vs3 files `eps` is the tolerance, `out=1` asks for its binary
-format, and with `encl=1` an open mesh is told; nothing is corrected for that.
+format, `emit=1` for factors with reflections in them, Hottel's script F, and with `encl=1` an open
+mesh is told; nothing is corrected for that. A masking surface `M` sees its base alone.
 
 \
 Examples:
@@ -30,7 +31,7 @@ factor and row sum is as exact as was asked.";
 /// Options of `fredholm viewfactors`.
 #[derive(Debug, Args)]
 pub struct ViewFactors {
-    /// The faces: a mesh in metres (.obj, .stl, .ply, .vs3), or a scene (.toml)
+    /// The faces: a mesh in metres (.obj, .glb, .gltf, .stl, .ply, .vs3), or a scene (.toml)
     pub mesh: PathBuf,
 
     /// Factors between groups (`g`, `o` or material) in place of faces

@@ -31,6 +31,8 @@ pub struct Asked {
     /// Whether the mesh says that it is an enclosure, `encl=1`.
     #[serde(rename = "encl")]
     pub enclosure: bool,
+    /// Whether it wants factors with reflections in them, Hottel's script F, `emit=1`.
+    pub reflections: bool,
     /// Whether it wants View3D's binary format, `out=1`.
     pub binary: bool,
 }
@@ -45,8 +47,9 @@ impl Asked {
             (None, None) => (TOLERANCE, Origin::Default),
         };
         let enclosure = control.is_some_and(|control| control.is_enclosure);
+        let reflections = control.is_some_and(|control| control.with_reflection);
         let binary = control.is_some_and(|control| control.output == 1);
-        Self { tolerance, tolerance_from, eps, enclosure, binary }
+        Self { tolerance, tolerance_from, eps, enclosure, reflections, binary }
     }
 
     /// What is taken from the mesh, in a line of the table; `None` if nothing is.
@@ -56,8 +59,9 @@ impl Asked {
             _ => format!("eps={eps:e} is the tolerance"),
         });
         let enclosure = self.enclosure.then(|| "encl=1: closure is checked, and not enforced".to_owned());
+        let reflections = self.reflections.then(|| "emit=1: the factors are Hottel's script F".to_owned());
         let binary = self.binary.then(|| "out=1: .out and .vf are binary".to_owned());
-        let words: Vec<String> = [eps, enclosure, binary].into_iter().flatten().collect();
+        let words: Vec<String> = [eps, enclosure, reflections, binary].into_iter().flatten().collect();
         (!words.is_empty()).then(|| words.join("; "))
     }
 }
@@ -70,11 +74,6 @@ pub fn not_done(control: &Control, mesh: &Path, is_closed: bool) -> Vec<String> 
     };
     let mut told = Vec::new();
     let mut tell = |message: &str| told.push(format!("{place}: {message}"));
-    if control.with_reflection {
-        tell(
-            "`emit=1` asks for factors with reflections in them (Hottel's script F); these are without, as of `emit=0`",
-        );
-    }
     match (control.row, control.column) {
         (Some(row), Some(column)) => {
             tell(&format!("`row={row} col={column}` asks for one factor; all are computed"));
@@ -116,10 +115,10 @@ mod tests {
         let control = Control { line: Some(7), row: Some(2), output: 2, ..Control::default() };
         let control = Control { is_enclosure: true, with_reflection: true, ..control };
         let told = not_done(&control, Path::new("a.vs3"), false);
-        for (told, word) in told.iter().zip(["`emit=1`", "`row=2`", "`out=2`", "`encl=1`"]) {
+        for (told, word) in told.iter().zip(["`row=2`", "`out=2`", "`encl=1`"]) {
             assert!(told.starts_with("a.vs3:7: ") && told.contains(word), "{told}");
         }
-        assert_eq!((told.len(), not_done(&control, Path::new("a.vs3"), true).len()), (4, 3));
+        assert_eq!((told.len(), not_done(&control, Path::new("a.vs3"), true).len()), (3, 2));
         assert!(not_done(&Control::default(), Path::new("a.vs3"), false).is_empty());
     }
 }

@@ -2,6 +2,7 @@
 
 use super::faces::Face;
 use radiosity::form_factor::pairs::Pairs;
+use radiosity::polygon::Polygon;
 use radiosity::view_factors::Exchange;
 use serde::Serialize;
 
@@ -23,7 +24,14 @@ pub fn counts(pairs: &Pairs<'_>) -> Counts {
 }
 
 /// The exchange of two faces, or of a face with itself.
-pub fn between(pairs: &Pairs<'_>, faces: &[Face], i: usize, j: usize) -> Exchange {
+pub fn between(pairs: &Pairs<'_>, faces: &[Face], polygons: &[Polygon], i: usize, j: usize) -> Exchange {
+    // A mask has the factor 1 to what it masks, and 0 to all else.
+    for (mask, other) in [(i, j), (j, i)] {
+        if let Some(base) = faces[mask].masks {
+            let value = if base == other { faces[mask].own_area(polygons) } else { 0.0 };
+            return Exchange { value, error: 0.0 };
+        }
+    }
     let (a, b) = (&faces[i].polygons, &faces[j].polygons);
     let mut sum = Exchange::default();
     for (k, &p) in a.iter().enumerate() {

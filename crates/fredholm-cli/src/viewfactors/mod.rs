@@ -50,7 +50,7 @@ pub fn command(args: &Arguments) -> Result<Ending> {
     let (scene, faces) = (&loaded.scene, faces(&loaded));
     let asked = Asked::new(args.tolerance, loaded.control.as_ref());
     let tolerance = asked.tolerance;
-    check_memory(&faces, scene, args, tolerance)?;
+    check_memory(&faces, scene, args, &asked)?;
     let outputs = Outputs::prepare(args)?;
     let examined = timed(&mut stages.load, || examine(scene, &loaded.faces));
 
@@ -61,32 +61,46 @@ pub fn command(args: &Arguments) -> Result<Ending> {
     let enclosure = enclosure(&by_face, &faces, &polygons, &visibility);
     let closing = || close(by_face, &enclosure, args);
     let (by_face, correction) = timed(&mut stages.enforce, closing)?;
+    let totals = timed(&mut stages.reflections, || total(&by_face, &faces, scene, &asked));
     let rows = Rows::new(by_face, &faces, scene, &enclosure, args.groups);
+    let totals = totals.map(|totals| rows.alike(totals, &faces, scene, args.groups));
+    let told = totals.as_ref().unwrap_or(&rows.factors);
 
-    let surroundings = Surroundings { is_closed: enclosure.is_closed(), emittances: &rows.emittances };
+    let surroundings = Surroundings {
+        is_closed: enclosure.is_closed(),
+        with_reflections: asked.reflections,
+        emittances: &rows.emittances,
+    };
     let mut files = Vec::new();
     for output in outputs.matrices {
-        files.push(timed(&mut stages.write, || write(output, &rows.factors, &surroundings, &asked))?);
+        files.push(timed(&mut stages.write, || write(output, told, &surroundings, &asked))?);
     }
     files.extend(outputs.json.as_ref().and_then(Json::file));
-    let sums = rows.factors.row_sums();
+    let (sums, told_sums) = (rows.factors.row_sums(), told.row_sums());
+    let missing =
+        told_sums.iter().zip(&rows.emittances).map(|(sum, emittance)| (sum.value - emittance).abs());
     let checked = || sums.iter().zip(&rows.whole).filter(|(_, whole)| **whole || !enclosure.is_closed());
     let report = Report {
         scene: scene.name.clone(),
         faces: faces.len(),
-        groups: args.groups.then_some(rows.factors.len()),
-        names: rows.factors.names(),
-        areas: rows.factors.areas(),
-        factors: Matrix(&rows.factors),
-        error: Errors(&rows.factors),
+        groups: args.groups.then_some(told.len()),
+        names: told.names(),
+        areas: told.areas(),
+        emittances: asked.reflections.then_some(rows.emittances.as_slice()),
+        factors: Matrix(told),
+        error: Errors(told),
         asked,
-        largest_error: rows.factors.largest_error().map_or(0.0, |(error, _)| error),
-        largest_row_error: sums.iter().map(|sum| sum.error).fold(0.0, f64::max),
+        largest_error: told.largest_error().map_or(0.0, |(error, _)| error),
+        largest_row_error: told_sums.iter().map(|sum| sum.error).fold(0.0, f64::max),
         closed: enclosure.is_closed(),
         escaping: enclosure.escaping,
         closure_defect: checked().map(|(sum, _)| (sum.value - 1.0).abs()).fold(0.0, f64::max),
+        emittance_defect: (asked.reflections
+            && enclosure.is_closed()
+            && rows.whole.iter().all(|whole| *whole))
+        .then(|| missing.fold(0.0, f64::max)),
         closure_rows: rows.whole.iter().filter(|whole| **whole).count(),
-        reciprocity_defect: rows.factors.reciprocity_defect(),
+        reciprocity_defect: told.reciprocity_defect(),
         correction,
         pairs: counts(&pairs),
         rays: 0,
@@ -101,19 +115,22 @@ pub fn command(args: &Arguments) -> Result<Ending> {
     let not_done = control.flat_map(|control| not_done(control, &args.mesh, enclosure.is_closed()));
     not_done.into_iter().try_for_each(|message| warn(&message))?;
     examined.findings.iter().try_for_each(|finding| warn(&format!("{}: {finding}", args.mesh.display())))?;
-    json::stream(outputs.json, &report, &table(&report, &rows.factors))?;
+    json::stream(outputs.json, &report, &table(&report, told))?;
     Ok(if report.is_met() { Ending::Converged } else { Ending::NotConverged })
 }
 
 /// That the matrix fits, before anything is computed.
-fn check_memory(faces: &[Face], scene: &Scene<Rgb>, args: &Arguments, tolerance: f64) -> Result<()> {
-    let storage = Storage::for_tolerance(tolerance);
+fn check_memory(faces: &[Face], scene: &Scene<Rgb>, args: &Arguments, asked: &Asked) -> Result<()> {
+    let storage = Storage::for_tolerance(asked.tolerance);
     let grouped = if args.groups { ViewFactors::grouped_bytes(groups(faces, scene).1.len()) } else { 0 };
-    let (needed, free) = (ViewFactors::bytes(faces.len(), storage) + grouped, memory::limit());
+    let reflections = if asked.reflections { ViewFactors::reflections_bytes(faces.len()) } else { 0 };
+    let needed = ViewFactors::bytes(faces.len(), storage) + grouped + reflections;
+    let free = memory::limit();
     if needed <= free {
         return Ok(());
     }
     let less = match storage {
+        _ if asked.reflections => " ask for `emit=0`, without reflections, which takes a tenth of it; or",
         Storage::Double => " ask for a --tolerance of 1e-6 or more, which takes little more than half; or",
         Storage::Single => "",
     };
@@ -132,7 +149,7 @@ fn assemble(pairs: &Pairs<'_>, faces: &[Face], polygons: &[Polygon], tolerance: 
     let bar = bar("view factors", n * (n + 1) / 2);
     let names = faces.iter().map(|face| face.name.clone()).collect();
     let storage = Storage::for_tolerance(tolerance);
-    let pair = |i, j| between(pairs, faces, i, j);
+    let pair = |i, j| between(pairs, faces, polygons, i, j);
     let computed = |pairs: usize| bar.inc(pairs as u64);
     let factors = ViewFactors::assemble(names, areas(faces, polygons), storage, pair, computed);
     bar.finish_and_clear();
@@ -147,7 +164,7 @@ fn enclosure(
     visibility: &Visibility,
 ) -> Enclosure {
     let sums = factors.row_sums();
-    let rows = faces.par_iter().zip(&sums).map(|(face, sum)| (face.polygons.clone(), sum.value));
+    let rows = faces.par_iter().zip(&sums).map(|(face, sum)| (face.in_sight(), sum.value));
     Enclosure::test(polygons, visibility, rows)
 }
 
@@ -169,6 +186,12 @@ fn close(
     }
     let correction = factors.enforce(&enclosure.whole).with_context(|| format!("{file}: --enforce"))?;
     Ok((factors, Some(correction.into())))
+}
+
+/// The factors with reflections in them, where these are asked for.
+fn total(factors: &ViewFactors, faces: &[Face], scene: &Scene<Rgb>, asked: &Asked) -> Option<ViewFactors> {
+    let emittances = faces.iter().map(|face| emittance(scene, face.surface));
+    asked.reflections.then(|| factors.with_reflections(&emittances.collect::<Vec<_>>()))
 }
 
 /// The rows of the matrix that is told: faces, or groups of them.
@@ -199,5 +222,17 @@ impl Rows {
         }
         let emittances = surfaces.iter().map(|&surface| emittance(scene, surface)).collect();
         Self { factors: by_face.grouped(&group_of, names), emittances, whole }
+    }
+
+    /// Other factors of the faces, in the same rows.
+    fn alike(
+        &self,
+        by_face: ViewFactors,
+        faces: &[Face],
+        scene: &Scene<Rgb>,
+        in_groups: bool,
+    ) -> ViewFactors {
+        let names = self.factors.names().to_vec();
+        if in_groups { by_face.grouped(&groups(faces, scene).0, names) } else { by_face }
     }
 }

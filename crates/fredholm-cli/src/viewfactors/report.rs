@@ -19,7 +19,10 @@ pub struct Report<'a> {
     pub names: &'a [String],
     /// Their areas, in m².
     pub areas: &'a [f64],
-    /// F_ij, from row to column.
+    /// Their emittances, where reflections are in the factors.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub emittances: Option<&'a [f64]>,
+    /// F_ij, from row to column; Hottel's script F where reflections are in them.
     #[serde(rename = "F")]
     pub factors: Matrix<'a>,
     /// The errors in the same places.
@@ -38,6 +41,10 @@ pub struct Report<'a> {
     pub escaping: f64,
     /// max |Σ_j F_ij − 1|: in a closed scene over the rows that see nothing but fronts, else over all.
     pub closure_defect: f64,
+    /// max |Σ_j 𝓕_ij − ε_i| of script F in a closed scene in which no row sees a back; the closure is that of the factors
+    /// without reflections.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub emittance_defect: Option<f64>,
     /// How many rows see nothing but fronts.
     pub closure_rows: usize,
     /// max |F_ij − A_j F_ji / A_i|.
@@ -81,6 +88,8 @@ pub struct Stages {
     pub factors: f64,
     /// Closing them.
     pub enforce: f64,
+    /// Putting reflections into them.
+    pub reflections: f64,
     /// Writing the matrices.
     pub write: f64,
 }

@@ -15,7 +15,9 @@ const LETTERS: usize = 12;
 
 /// The table, a line per matter, and the matrix itself where it is small.
 pub fn table(report: &Report<'_>, factors: &ViewFactors) -> String {
-    let title = format!("{}: view factors\n\n{}", report.scene, lines(&matters(report)));
+    let kind =
+        if report.asked.reflections { "view factors with reflections, script F" } else { "view factors" };
+    let title = format!("{}: {kind}\n\n{}", report.scene, lines(&matters(report)));
     let is_small = report.names.len() <= SHOWN && factors.seen_pairs() > 0;
     if is_small { title + &matrix(report, factors) } else { title }
 }
@@ -32,6 +34,10 @@ fn matters(report: &Report<'_>) -> Vec<(&'static str, String)> {
     }
     matters.push(("error", error(report)));
     matters.push(("closure", closure(report)));
+    if let Some(defect) = report.emittance_defect {
+        let words = format!("rows of script F add up to the emittances within {}", power(defect));
+        matters.push(("reflections", words));
+    }
     if let Some(correction) = &report.correction {
         matters.push(("enforced", enforced(correction)));
     }
@@ -128,6 +134,7 @@ fn times(seconds: f64, stages: &Stages) -> String {
         ("load", stages.load),
         ("factors", stages.factors),
         ("enforce", stages.enforce),
+        ("reflections", stages.reflections),
         ("write", stages.write),
     ];
     let long = stages.iter().filter(|(_, seconds)| *seconds >= 0.005);
@@ -145,7 +152,8 @@ fn matrix(report: &Report<'_>, factors: &ViewFactors) -> String {
     let sums = factors.row_sums();
     let digits = Digits::new(1.0, report.largest_error.clamp(FINEST, COARSEST));
     let value = |factor: f64| if factor == 0.0 { "0".to_owned() } else { digits.write(factor) };
-    let values = block("F", &names, |i, j| value(factors.factor(i, j)), |i| value(sums[i].value));
+    let title = if report.asked.reflections { "script F" } else { "F" };
+    let values = block(title, &names, |i, j| value(factors.factor(i, j)), |i| value(sums[i].value));
     let short = |error: f64| if error == 0.0 { "0".to_owned() } else { format!("{error:.0e}") };
     let errors = block("error", &names, |i, j| short(factors.error(i, j)), |i| short(sums[i].error));
     format!("\n{}\n{}", columns(&values), columns(&errors))

@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::io;
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -39,6 +40,8 @@ pub struct Place {
     pub line: Option<usize>,
     /// The byte of a binary file, counted from 0.
     pub byte: Option<usize>,
+    /// The triangle of a file that has them in no order of lines or bytes, counted from 1.
+    pub triangle: Option<NonZeroUsize>,
 }
 
 /// A place in a file that is known.
@@ -46,11 +49,12 @@ pub struct Place {
 pub(super) enum Spot {
     Line(usize),
     Byte(usize),
+    Triangle(usize),
 }
 
 impl Place {
     pub(super) fn file(file: &Path) -> Self {
-        Self { file: file.into(), line: None, byte: None }
+        Self { file: file.into(), line: None, byte: None, triangle: None }
     }
 
     pub(super) fn line(file: &Path, line: usize) -> Self {
@@ -58,21 +62,23 @@ impl Place {
     }
 
     pub(super) fn spot(file: &Arc<Path>, spot: Spot) -> Self {
-        let (line, byte) = match spot {
-            Spot::Line(line) => (Some(line), None),
-            Spot::Byte(byte) => (None, Some(byte)),
+        let (line, byte, triangle) = match spot {
+            Spot::Line(line) => (Some(line), None, None),
+            Spot::Byte(byte) => (None, Some(byte), None),
+            Spot::Triangle(triangle) => (None, None, NonZeroUsize::new(triangle)),
         };
-        Self { file: Arc::clone(file), line, byte }
+        Self { file: Arc::clone(file), line, byte, triangle }
     }
 }
 
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.file.display())?;
-        match (self.line, self.byte) {
-            (Some(line), _) => write!(f, ":{line}"),
-            (None, Some(byte)) => write!(f, ", byte {byte}"),
-            (None, None) => Ok(()),
+        match (self.line, self.byte, self.triangle) {
+            (Some(line), ..) => write!(f, ":{line}"),
+            (None, Some(byte), _) => write!(f, ", byte {byte}"),
+            (None, None, Some(triangle)) => write!(f, ", triangle {triangle}"),
+            (None, None, None) => Ok(()),
         }
     }
 }
@@ -91,7 +97,7 @@ pub enum Problem {
     /// No reader for files of this kind.
     #[error(
         "files of the kind `{0}` are not read; scenes are read from .toml and from meshes, and these from .obj, \
-         .stl, .ply and .vs3"
+         .gltf, .glb, .stl, .ply and .vs3"
     )]
     UnknownFormat(String),
     /// A text file in another encoding, or no text at all.

@@ -1,6 +1,6 @@
 //! A face is what a file calls one: Σ areas of its polygons = its area.
 
-use super::error::Place;
+use super::error::{Error, Place, Problem};
 use super::{Loaded, Scene};
 use std::ops::Range;
 
@@ -19,8 +19,11 @@ pub struct Face {
     pub polygons: Range<usize>,
     /// Where it stands; `None` for a scene that no file was read for.
     pub place: Option<Place>,
-    /// Whether it only blocks: such a face is an occluder, and no row of a matrix.
+    /// Whether it only blocks: such a face is an occluder, and no row of a matrix unless it masks another.
     pub is_obstruction: bool,
+    /// The face, by its number, part of which it lies upon, front to front: it sees nothing else, and nothing else sees that
+    /// part.
+    pub masks: Option<usize>,
     /// The face, by its number, that this one makes one row with.
     pub combined_with: Option<usize>,
 }
@@ -46,10 +49,19 @@ impl Face {
             polygons: polygon..polygon + 1,
             place: None,
             is_obstruction: false,
+            masks: None,
             combined_with: None,
         };
         in_order.enumerate().map(face).collect()
     }
+}
+
+/// What is said of a masking surface where light or heat is asked for.
+pub(super) fn masking_message(name: &str) -> String {
+    format!(
+        "`{name}` is a masking surface (`M`): it has view factors, but no place in space, since it lies upon its base; leave \
+         it out, or make it a null surface (`N`)"
+    )
 }
 
 /// The name of the face `number`, from 0, of a surface with `count` faces.
@@ -58,12 +70,20 @@ pub(super) fn numbered(surface: &str, number: usize, count: usize) -> String {
 }
 
 impl Loaded {
+    /// That no face masks another: in space two faces in one place are none.
+    pub(super) fn check_masks(&self) -> Result<(), Error> {
+        let masking = self.faces.iter().find(|face| face.masks.is_some());
+        let Some(Face { name, place: Some(place), .. }) = masking else { return Ok(()) };
+        Err(Problem::Malformed(masking_message(name)).at(place.clone()))
+    }
+
     /// The faces that make up each row of a matrix of view factors by face, by their numbers: obstructions are left
     /// out, and faces that the file combines come together, under the name of the first.
     pub fn rows(&self) -> Vec<Vec<usize>> {
         let mut row_of = vec![None; self.faces.len()];
         let mut rows: Vec<Vec<usize>> = Vec::new();
-        let radiates = |&index: &usize| !self.faces[index].is_obstruction;
+        let radiates =
+            |&index: &usize| !self.faces[index].is_obstruction || self.faces[index].masks.is_some();
         for index in (0..self.faces.len()).filter(radiates) {
             let head = self.faces[index].combined_with.unwrap_or(index);
             let row = *row_of[head].get_or_insert_with(|| {

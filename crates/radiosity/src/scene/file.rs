@@ -3,7 +3,7 @@
 //! ```toml
 //! name = "Office"                       # optional; else the file's name
 //! unit = "mm"                           # of the meshes and of every length here: mm, cm, m, in, ft, or metres as a number
-//! meshes = ["room.obj", "desk.stl"]     # beside this file: .obj, .stl, .ply, .vs3
+//! meshes = ["room.obj", "desk.stl"]     # beside this file: .obj, .glb, .gltf, .stl, .ply, .vs3
 //!
 //! [materials.white]                     # a material by its name in the meshes; what is not given stays as it is there
 //! reflectance = 0.8                     # or [red, green, blue]
@@ -63,14 +63,16 @@ pub(super) fn load(file: &Path, units: Option<Units>) -> Result<Loaded, Error> {
     if units == Units::Photometric {
         photometric::check_grey(&meshes, &overrides)?;
     }
-    let lights = source.lights(&entry.light, metres, units)?;
+    let mut lights: Vec<_> = meshes.iter().flat_map(|mesh| mesh.lights.iter().copied()).collect();
+    lights.extend(source.lights(&entry.light, metres, units)?);
     let camera = entry.camera.map(|camera| source.camera(&camera, metres)).transpose()?;
-    let Assembled { surfaces, faces, warnings } = mesh::assemble(meshes, &overrides)?;
+    let camera = camera.or_else(|| meshes.iter().find_map(|mesh| mesh.camera));
+    let Assembled { surfaces, faces, warnings, clean_up } = mesh::assemble(meshes, &overrides)?;
     let name = entry.name.unwrap_or_else(|| super::load::file_name(file));
     let scene = Scene { name, surfaces, lights, camera };
     let mut solve = entry.solve;
     solve.patch_size = solve.patch_size.map(|size| size * metres);
-    Ok(Loaded { scene, solve, faces, warnings, control: None, units })
+    Ok(Loaded { scene, solve, faces, warnings, clean_up, control: None, units })
 }
 
 #[derive(Deserialize)]

@@ -2,10 +2,10 @@
 
 use super::error::{Error, Place, Problem, Warning};
 use super::face::Face;
-use super::mesh::{self, Assembled, Mesh};
+use super::mesh::{self, Assembled, CleanUp, Mesh};
 use super::photometric::{self, Units};
 use super::vs3::Control;
-use super::{Scene, file, obj, ply, stl, vs3};
+use super::{Scene, file, gltf, obj, ply, stl, vs3};
 use fredholm::value::Rgb;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -22,6 +22,8 @@ pub struct Loaded {
     pub faces: Vec<Face>,
     /// What the readers passed over or left out, to be told.
     pub warnings: Vec<Warning>,
+    /// What the readers did to the faces.
+    pub clean_up: CleanUp,
     /// How a View3D file asks for its view factors; `None` for any other.
     pub control: Option<Control>,
     /// What its light is measured in; where that is lumens all channels are the same: [`Self::grey`].
@@ -67,6 +69,7 @@ pub fn load(path: &Path) -> Result<Loaded, Error> {
 /// As of [`load`], and when a photometric scene has colours.
 pub fn load_in(path: &Path, units: Option<Units>) -> Result<Loaded, Error> {
     let loaded = read(path, units)?;
+    loaded.check_masks()?;
     loaded.scene.check_light().map_err(|problem| problem.at(Place::file(path)))?;
     Ok(loaded)
 }
@@ -93,19 +96,21 @@ fn read(path: &Path, units: Option<Units>) -> Result<Loaded, Error> {
 fn bare_mesh(path: &Path, units: Units) -> Result<Loaded, Error> {
     let mut mesh = read_mesh(path, 1.0, &Place::file(path))?;
     let (name, control) = (mesh.title.take().unwrap_or_else(|| file_name(path)), mesh.control.take());
+    let (lights, camera) = (std::mem::take(&mut mesh.lights), mesh.camera.take());
     let (meshes, overrides) = (vec![mesh], BTreeMap::new());
     if units == Units::Photometric {
         photometric::check_grey(&meshes, &overrides)?;
     }
-    let Assembled { surfaces, faces, warnings } = mesh::assemble(meshes, &overrides)?;
-    let scene = Scene { name, surfaces, lights: Vec::new(), camera: None };
-    Ok(Loaded { scene, solve: SolveOptions::default(), faces, warnings, control, units })
+    let Assembled { surfaces, faces, warnings, clean_up } = mesh::assemble(meshes, &overrides)?;
+    let scene = Scene { name, surfaces, lights, camera };
+    Ok(Loaded { scene, solve: SolveOptions::default(), faces, warnings, clean_up, control, units })
 }
 
 /// The mesh of a file, by its extension; lengths in the file are so many `metres`.
 pub(super) fn read_mesh(path: &Path, metres: f64, named_at: &Place) -> Result<Mesh, Error> {
     match extension(path).as_str() {
         "obj" => obj::read(path, metres, named_at),
+        "gltf" | "glb" => gltf::read(path, metres, named_at),
         "stl" => stl::read(path, metres, named_at),
         "ply" => ply::read(path, metres, named_at),
         "vs3" => vs3::read(path, metres, named_at),

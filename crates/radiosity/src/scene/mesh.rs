@@ -1,15 +1,16 @@
 //! What any mesh file comes to: groups of faces and the materials that it names; and surfaces made of them.
 
-use super::Surface;
 use super::cut::cut;
 use super::error::{Error, Place, Problem, Spot, Warning, listed};
 use super::face::{self, Face};
 use super::material::Material;
 use super::normals::{self, LeftFlat};
 use super::vs3::Control;
+use super::{Camera, PointLight, Surface};
 use crate::polygon::Polygon;
 use fredholm::value::Rgb;
 use glam::DVec3;
+use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::path::Path;
@@ -24,18 +25,28 @@ pub(super) struct Mesh {
     pub materials: BTreeMap<String, Material>,
     pub warnings: Vec<Warning>,
     pub control: Option<Control>,
+    /// Lights and a camera that the file has beside its faces.
+    pub lights: Vec<PointLight<Rgb>>,
+    pub camera: Option<Camera>,
+    /// Faces whose corners were turned round, since their node mirrors.
+    pub turned_round: usize,
     left_out: LeftOut,
     left_flat: LeftFlat,
+    drawn_flat: usize,
 }
 
 /// Faces with one name and one material.
 pub(super) struct Group {
     pub name: Option<String>,
     pub material: Option<MaterialName>,
+    /// What holds in place of the material of that name, where faces of one material differ.
+    pub paint: Option<Material>,
     pub polygons: Vec<Polygon>,
     /// For each face the number of polygons up to its end, and where it stands.
     faces: Vec<(usize, Spot)>,
     pub is_obstruction: bool,
+    /// Another group, by its number in the mesh, upon a part of which this lies; both are of one face.
+    pub masks: Option<usize>,
     /// Another group, by its number in the mesh; both are of one face.
     pub combined_with: Option<usize>,
 }
@@ -50,8 +61,21 @@ struct LeftOut {
 impl Mesh {
     pub fn new(file: &Path) -> Self {
         let (title, groups, materials, warnings, control) = Default::default();
-        let (left_out, left_flat) = Default::default();
-        Self { file: file.into(), title, groups, materials, warnings, control, left_out, left_flat }
+        let (lights, camera, turned_round, left_out, left_flat) = Default::default();
+        Self {
+            file: file.into(),
+            title,
+            groups,
+            materials,
+            warnings,
+            control,
+            lights,
+            camera,
+            turned_round,
+            left_out,
+            left_flat,
+            drawn_flat: 0,
+        }
     }
 
     /// Begins a group of a format without materials: a scene file can give it one by the group's name.
@@ -69,14 +93,27 @@ impl Mesh {
         normals: &[Option<DVec3>],
         spot: Spot,
     ) -> Result<(), Error> {
-        match (cut(corners), self.groups.len().checked_sub(1)) {
-            (Ok(polygons), Some(group)) => self.push(group, polygons, (corners, normals), spot),
-            (Ok(_), None) => {}
-            (Err(problem), _) if is_without_area(&problem, corners.len()) => {
+        match self.groups.len().checked_sub(1) {
+            Some(last) => self.push_exported_to(last, corners, normals, spot),
+            None => Ok(()),
+        }
+    }
+
+    /// The same to the group of a number.
+    pub fn push_exported_to(
+        &mut self,
+        group: usize,
+        corners: &[DVec3],
+        normals: &[Option<DVec3>],
+        spot: Spot,
+    ) -> Result<(), Error> {
+        match cut(corners) {
+            Ok(polygons) => self.push(group, polygons, (corners, normals), spot),
+            Err(problem) if is_without_area(&problem, corners.len()) => {
                 self.left_out.count += 1;
                 self.left_out.first.get_or_insert(spot);
             }
-            (Err(problem), _) => return Err(problem.at(self.place(spot))),
+            Err(problem) => return Err(problem.at(self.place(spot))),
         }
         Ok(())
     }
@@ -100,6 +137,15 @@ impl Mesh {
         Place::spot(&self.file, spot)
     }
 
+    /// What was done to the mesh on the way.
+    pub fn clean_up(&self) -> CleanUp {
+        CleanUp {
+            faces_without_area_left_out: self.left_out.count,
+            faces_turned_round: self.turned_round,
+            faces_drawn_flat: self.drawn_flat,
+        }
+    }
+
     pub fn warn(&mut self, place: Place, message: String) {
         self.warnings.push(Warning { place, message });
     }
@@ -107,7 +153,9 @@ impl Mesh {
     /// The mesh, once all is read: without groups that have no face, and with a word on what was left out or stays flat.
     pub fn finished(mut self) -> Self {
         self.groups.retain(|group| !group.faces.is_empty());
-        for (spot, message) in std::mem::take(&mut self.left_flat).told() {
+        let left_flat = std::mem::take(&mut self.left_flat);
+        self.drawn_flat = left_flat.count();
+        for (spot, message) in left_flat.told() {
             self.warn(self.place(spot), message);
         }
         if let LeftOut { count, first: Some(first) } = self.left_out {
@@ -140,8 +188,8 @@ pub(super) struct MaterialName {
 
 impl Group {
     pub fn new(name: Option<String>, material: Option<MaterialName>) -> Self {
-        let (polygons, faces, is_obstruction, combined_with) = Default::default();
-        Self { name, material, polygons, faces, is_obstruction, combined_with }
+        let (paint, polygons, faces, is_obstruction, masks, combined_with) = Default::default();
+        Self { name, material, paint, polygons, faces, is_obstruction, masks, combined_with }
     }
 
     /// Adds a face, in its polygons.
@@ -170,12 +218,32 @@ impl Group {
     }
 }
 
+/// What readers do to the faces of meshes on the way. No vertex is moved or welded to another.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct CleanUp {
+    /// Faces without area, which are left out.
+    pub faces_without_area_left_out: usize,
+    /// Faces whose corners are turned round, since the transform of their node mirrors.
+    pub faces_turned_round: usize,
+    /// Faces that are drawn flat, since something is wrong with the normals of their corners.
+    pub faces_drawn_flat: usize,
+}
+
+impl CleanUp {
+    fn add(&mut self, other: Self) {
+        self.faces_without_area_left_out += other.faces_without_area_left_out;
+        self.faces_turned_round += other.faces_turned_round;
+        self.faces_drawn_flat += other.faces_drawn_flat;
+    }
+}
+
 /// What all meshes of a scene come to.
 #[derive(Default)]
 pub(super) struct Assembled {
     pub surfaces: Vec<Surface<Rgb>>,
     pub faces: Vec<Face>,
     pub warnings: Vec<Warning>,
+    pub clean_up: CleanUp,
 }
 
 /// The surfaces of all meshes, in order, under names that differ; `overrides` go before the meshes' own materials.
@@ -186,12 +254,21 @@ pub(super) fn assemble(
     let (mut taken, mut polygons) = (BTreeSet::new(), 0);
     let mut assembled = Assembled::default();
     for mesh in meshes {
+        assembled.clean_up.add(mesh.clean_up());
         let materials = overridden(mesh.materials, overrides);
         let names = surface_names(&mesh.groups);
         let first_face = assembled.faces.len();
         for (group, name) in mesh.groups.into_iter().zip(names) {
             let area = group.polygons.iter().map(Polygon::area).sum();
-            let (reflectance, emission) = resolve(group.material.as_ref(), area, &materials)?;
+            let (reflectance, emission) = match &group.paint {
+                Some(paint) => {
+                    let name = group.material_name().unwrap_or_default();
+                    let over =
+                        overrides.get(name).map_or_else(|| paint.clone(), |over| paint.overridden_by(over));
+                    over.resolve(name, area)?
+                }
+                None => resolve(group.material.as_ref(), area, &materials)?,
+            };
             let name = unique(name, &mut taken);
             let surface = assembled.surfaces.len();
             assembled.faces.extend(group.ranges().enumerate().map(|(number, (range, spot))| Face {
@@ -200,6 +277,7 @@ pub(super) fn assemble(
                 polygons: polygons + range.start..polygons + range.end,
                 place: Some(Place::spot(&mesh.file, spot)),
                 is_obstruction: group.is_obstruction,
+                masks: group.masks.map(|other| first_face + other),
                 combined_with: group.combined_with.map(|other| first_face + other),
             }));
             polygons += group.polygons.len();

@@ -1,6 +1,6 @@
 //! Room 1: a scene is surfaces with materials, in metres, and perhaps a camera.
 //!
-//! [`load`] reads a mesh (`.obj` with its `.mtl`, `.stl`, `.ply`, View3D's `.vs3`; in metres) or a scene file (`.toml`:
+//! [`load`] reads a mesh (`.obj` with its `.mtl`, `.gltf`, `.glb`, `.stl`, `.ply`, View3D's `.vs3`; in metres) or a scene file (`.toml`:
 //! meshes, their unit, materials in place of the meshes' own, a camera, wishes on how to solve). [`load_unlit`] takes
 //! scenes without light as well. [`cornell_box`] is built in. Surfaces are diffuse and one-sided. Whatever the door,
 //! the same is checked: see [`Problem`]; all tolerances are relative to the size of a face, so that a scene in
@@ -17,6 +17,7 @@ mod error;
 mod examine;
 mod face;
 mod file;
+mod gltf;
 mod light;
 mod light_entry;
 mod load;
@@ -41,6 +42,7 @@ pub use face::Face;
 pub use file::percent;
 pub use light::PointLight;
 pub use load::{Loaded, SolveOptions, load, load_in, load_unlit};
+pub use mesh::CleanUp;
 pub use photometric::Units;
 pub use thermal::{Thermal, ThermalScene, load_thermal};
 pub use vs3::Control;

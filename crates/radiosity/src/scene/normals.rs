@@ -44,6 +44,11 @@ impl LeftFlat {
         }
     }
 
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.0.iter().map(|(_, count, _)| count).sum()
+    }
+
     /// A sentence for each fault, and where the first face with it stands.
     pub fn told(&self) -> impl Iterator<Item = (Spot, String)> {
         self.0.iter().map(|&(fault, count, spot)| {

@@ -73,10 +73,9 @@ impl Loaded {
 pub(super) fn check_grey(meshes: &[Mesh], overrides: &BTreeMap<String, Material>) -> Result<(), Error> {
     let nothing = Material::default();
     for mesh in meshes {
-        for name in
-            mesh.groups.iter().filter_map(|group| group.material.as_ref()).map(|material| &material.name)
-        {
-            let own = mesh.materials.get(name).unwrap_or(&nothing);
+        for group in &mesh.groups {
+            let Some(name) = group.material.as_ref().map(|material| &material.name) else { continue };
+            let own = group.paint.as_ref().or_else(|| mesh.materials.get(name)).unwrap_or(&nothing);
             let material = own.overridden_by(overrides.get(name).unwrap_or(&nothing));
             grey(name, "reflectance", material.reflectance.as_ref())?;
             grey(name, "emission", material.emission.as_ref())?;

@@ -11,6 +11,7 @@ mod enforce;
 mod error_code;
 mod grouped;
 mod packed;
+mod reflections;
 
 pub use enforce::{Correction, EnforceError};
 pub use packed::Storage;

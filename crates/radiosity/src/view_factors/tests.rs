@@ -135,3 +135,50 @@ fn the_memory_is_as_told() {
         ViewFactors::assemble(vec![], vec![], Storage::Single, made_up, |_| ()).largest_error().is_none()
     );
 }
+
+/// What n grey faces exchange, with every bounce followed, is script F; and what errors of the factors make of it is within
+/// what is told.
+#[test]
+fn reflections_are_all_bounces_and_errors_go_with_them() {
+    let n = 7;
+    let emittances: Vec<f64> = (0..n).map(|i| [0.9, 0.2, 1.0, 0.05][i % 4]).collect();
+    let script = |factors: &ViewFactors, emittances: &[f64]| {
+        // ε_i (F + Fρ F + …)_ij ε_j, bounce by bounce.
+        let mut bounce: Vec<Vec<f64>> = factors.rows().collect();
+        let mut sum = bounce.clone();
+        for _ in 0..3000 {
+            let next = |i: usize, j: usize| {
+                (0..n).map(|k| bounce[i][k] * (1.0 - emittances[k]) * factors.factor(k, j)).sum()
+            };
+            bounce = (0..n).map(|i| (0..n).map(|j| next(i, j)).collect()).collect();
+            (0..n).for_each(|i| (0..n).for_each(|j| sum[i][j] += bounce[i][j]));
+        }
+        (0..n).for_each(|i| (0..n).for_each(|j| sum[i][j] *= emittances[i] * emittances[j]));
+        sum
+    };
+    let factors = factors(n, Storage::Double);
+    let (found, expected) = (factors.with_reflections(&emittances), script(&factors, &emittances));
+    for (i, row) in expected.iter().enumerate() {
+        assert!(found.row(i).zip(row).all(|(found, expected)| (found - expected).abs() < 1e-12), "{i}");
+    }
+    assert!(found.reciprocity_defect() < 1e-15);
+    assert_eq!(
+        factors.with_reflections(&vec![1.0; n]).row(3).collect::<Vec<_>>(),
+        factors.row(3).collect::<Vec<_>>()
+    );
+    // The factors at the ends of their errors, by turns and all one way: all one way reaches what is told.
+    for sign in [|_, _| 1.0, |i: usize, j: usize| if (i * j).is_multiple_of(2) { 1.0 } else { -1.0 }] {
+        let names = (0..n).map(|i| i.to_string()).collect();
+        let off =
+            |i, j| Exchange { value: made_up(i, j).value + sign(i, j) * made_up(i, j).error, error: 0.0 };
+        let moved = ViewFactors::assemble(names, areas(n), Storage::Double, off, |_| ())
+            .with_reflections(&emittances);
+        for i in 0..n {
+            for j in 0..n {
+                let change = (moved.factor(i, j) - found.factor(i, j)).abs();
+                assert!(change <= found.error(i, j), "{i} {j}: {change:e} {:e}", found.error(i, j));
+                assert!(sign(1, 1) < 0.0 || change > 0.8 * found.error(i, j), "{i} {j}: {change:e}");
+            }
+        }
+    }
+}

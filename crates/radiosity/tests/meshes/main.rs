@@ -6,6 +6,7 @@
 mod errors;
 mod examined;
 mod files;
+mod gltf;
 mod mutations;
 mod normals;
 mod view3d;

@@ -147,6 +147,11 @@ fn broken_files_are_refused_or_make_sense() {
         ("normals.obj", crate::normals::obj().into_bytes()),
         ("normals.ply", crate::normals::ply(true)),
     ]);
+    let square = crate::gltf::pictured(
+        1.0,
+        "\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"baseColorTexture\":{\"index\":0}}",
+    );
+    files.extend([("square.glb", square.glb()), ("square.gltf", square.embedded())]);
     files.extend([("parts.vs3", extra.to_vec()), ("planes.vs3", planes.to_vec())]);
     let (mut accepted, mut random) = (0, Random(1));
     for (kind, (name, bytes)) in files.iter().enumerate() {

@@ -21,7 +21,7 @@ use radiosity::export;
 use radiosity::patches::Patches;
 use radiosity::polygon::Polygon;
 use radiosity::render::{Colour, Exposure, Scale, Sightings, false_colour, map_of_values};
-use radiosity::scene::{Scene, Units};
+use radiosity::scene::{CleanUp, Scene, Units};
 use radiosity::visibility::Visibility;
 use std::f64::consts::FRAC_1_PI;
 use std::time::Instant;
@@ -29,7 +29,7 @@ use std::time::Instant;
 /// From the loaded scene to the last file.
 pub fn walk<V: Colour>(
     scene: &Scene<V>,
-    units: Units,
+    (units, clean_up): (Units, CleanUp),
     accuracy: f64,
     args: &Radiosity,
     start: Instant,
@@ -66,7 +66,8 @@ pub fn walk<V: Colour>(
     files.extend(json.as_ref().and_then(Json::file));
     seconds.total = start.elapsed().as_secs_f64();
     let means = surfaces(scene, &parts.patches, units, (&parts.radiosity, &parts.irradiance));
-    let report = Report::new(scene, accuracy, &rounds, bound, (units, means), seconds, files);
+    let mut report = Report::new(scene, accuracy, &rounds, bound, (units, means), seconds, files);
+    report.clean_up = clean_up;
     json::tell(json, &report, &table::table(&report))?;
     Ok(if report.is_met() { Ending::Converged } else { Ending::NotConverged })
 }

@@ -4,7 +4,7 @@ use crate::radiosity::memory;
 use crate::radiosity::report::{Named, Surface};
 use crate::radiosity::timing::Seconds;
 use radiosity::adaptive::{Bound, Round};
-use radiosity::scene::{Scene, Units};
+use radiosity::scene::{CleanUp, Scene, Units};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -36,6 +36,8 @@ pub struct Report {
     pub dark: bool,
     /// How many polygons are drawn with the normals of a curved surface; the light on them is solved as if they were flat.
     pub smooth_normals: usize,
+    /// What the readers did to the mesh.
+    pub clean_up: CleanUp,
     /// Where the time went.
     pub seconds: Seconds,
     /// The most memory used at once.
@@ -87,6 +89,7 @@ impl Report {
             form_factors,
             rounds,
             smooth_normals: scene.curved_polygons(),
+            clean_up: CleanUp::default(),
             dark: surfaces.iter().all(Surface::is_dark),
             seconds,
             peak_memory_bytes: memory::peak(),

@@ -1,7 +1,7 @@
 //! The numbers of a run to an accuracy as people read them.
 
 use super::report::Report;
-use crate::radiosity::table::{grouped, last, of_surfaces, smooth_normals};
+use crate::radiosity::table::{grouped, last, of_mesh, of_surfaces};
 use crate::text::{self, percent};
 
 /// The table, a line per matter.
@@ -24,7 +24,7 @@ fn lines(report: &Report) -> Vec<(&'static str, String)> {
         ("iteration", percent(report.iteration_error)),
         ("mesh", mesh(report)),
     ];
-    lines.extend(smooth_normals(report.smooth_normals));
+    lines.extend(of_mesh(report.smooth_normals, report.clean_up));
     lines.extend(last(report.peak_memory_bytes, report.dark, &report.seconds, &report.files));
     lines
 }

@@ -106,7 +106,8 @@ fn matrix_market_lists_what_is_not_nothing() {
 fn view3d_reads_its_own_format() {
     for (storage, digits) in [(Storage::Single, 5e-9), (Storage::Double, 5e-13)] {
         let factors = factors(storage);
-        let surroundings = Surroundings { is_closed: true, emittances: &[0.9, 0.85, 0.1234] };
+        let surroundings =
+            Surroundings { is_closed: true, with_reflections: false, emittances: &[0.9, 0.85, 0.1234] };
         let text = text(|out| write_view3d(&factors, &surroundings, out));
         // As its reader does: 34 characters of a first line, six words, and then numbers, whatever the lines.
         let (header, rest) = text.split_once('\n').unwrap();
@@ -127,7 +128,8 @@ fn view3d_reads_its_own_format() {
 fn view3d_reads_its_own_binary_format() {
     for storage in STORAGES {
         let factors = factors(storage);
-        let surroundings = Surroundings { is_closed: true, emittances: &[0.9, 0.85, 0.1234] };
+        let surroundings =
+            Surroundings { is_closed: true, with_reflections: true, emittances: &[0.9, 0.85, 0.1234] };
         let mut bytes = Vec::new();
         write_view3d_binary(&factors, &surroundings, &mut bytes).unwrap();
         // As its reader does: a first line, whose end is its 32nd byte, six words; and then numbers of four bytes.
@@ -135,7 +137,7 @@ fn view3d_reads_its_own_binary_format() {
         let (header, rest) = bytes.split_at(32);
         let header = std::str::from_utf8(header).unwrap();
         let words: Vec<&str> = header.split_whitespace().collect();
-        assert_eq!((words[0], &words[2..]), ("fredholm", &["1", "1", "0", "3"][..]));
+        assert_eq!((words[0], &words[2..]), ("fredholm", &["1", "1", "1", "3"][..]));
         assert!(header.is_ascii() && header.ends_with(" \r\n"), "{header:?}");
         let numbers: Vec<f32> =
             rest.chunks(4).map(|bytes| f32::from_le_bytes(bytes.try_into().unwrap())).collect();

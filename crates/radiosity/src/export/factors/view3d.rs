@@ -12,6 +12,8 @@ use std::io::{self, Write};
 pub struct Surroundings<'a> {
     /// Whether the faces are an enclosure.
     pub is_closed: bool,
+    /// Whether the factors are script F, with reflections in them.
+    pub with_reflections: bool,
     /// The emittance of each face, 1 − ρ.
     pub emittances: &'a [f64],
 }
@@ -20,7 +22,7 @@ pub struct Surroundings<'a> {
 /// binary file 32 bytes with the end of the line.
 const HEADER: usize = 30;
 
-/// Writes F in View3D's text format (`out = 0`, without emittances in the factors: `emit = 0`).
+/// Writes F in View3D's text format (`out = 0`; `emit = 1` where reflections are in the factors).
 ///
 /// Factors have 8 digits behind the point where they are kept in `f32`, else 12: View3D itself writes 6.
 pub fn write_view3d(
@@ -40,7 +42,7 @@ pub fn write_view3d(
     line(surroundings.emittances.iter().map(|emittance| format!("{emittance:.3}")), out)
 }
 
-/// Writes F in View3D's binary format (`out = 1`, without emittances in the factors: `emit = 0`): all numbers as `f32`,
+/// Writes F in View3D's binary format (`out = 1`; `emit = 1` where reflections are in the factors): all numbers as `f32`,
 /// little-endian as on the machines that View3D runs on, areas in m².
 ///
 /// # Errors
@@ -67,7 +69,8 @@ pub fn write_view3d_binary(
 /// The first line, padded, without its end.
 fn header(format: u8, factors: &ViewFactors, surroundings: &Surroundings<'_>) -> String {
     let (version, closed) = (env!("CARGO_PKG_VERSION"), u8::from(surroundings.is_closed));
-    let header = format!("fredholm {version} {format} {closed} 0 {}", factors.len());
+    let emit = u8::from(surroundings.with_reflections);
+    let header = format!("fredholm {version} {format} {closed} {emit} {}", factors.len());
     format!("{header:<HEADER$}")
 }
 

@@ -33,6 +33,7 @@ mod entry;
 
 use self::entry::{EnclosureEntry, Entry, PerBand, SurfaceEntry, condition};
 use super::error::{Error, Place, Problem, listed};
+use super::face;
 use super::file::{Source, Unit};
 use super::load::SolveOptions;
 use super::mesh::{self, Group, MaterialName};
@@ -138,6 +139,10 @@ impl<'a> Reader<'a> {
             return Err(malformed("a thermal scene needs `unit` and `meshes`, or an [enclosure]", file()));
         };
         let groups = mesh::named(self.source.meshes(names, metres)?);
+        if let Some((name, group)) = groups.iter().find(|(_, group)| group.masks.is_some()) {
+            let place = group.material.as_ref().map_or_else(file, |material| material.place.clone());
+            return Err(malformed(face::masking_message(name), place));
+        }
         let materials = self.materials(&entry.materials, &groups)?;
         let (mut shapes, mut surfaces) = (Vec::new(), Vec::new());
         for (name, group) in groups {

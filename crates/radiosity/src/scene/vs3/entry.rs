@@ -12,6 +12,8 @@ pub(super) enum Kind {
     Radiating,
     /// It takes away a part of its base.
     Null,
+    /// It lies upon a part of its base, front to front.
+    Mask,
     /// It only blocks.
     Obstruction,
 }

@@ -48,17 +48,25 @@ pub(super) fn link(
     for (index, entry) in entries.iter().enumerate() {
         let combined = links.combined(index).map_err(|problem| at(index, mesh, problem))?;
         let polygons = links.without_parts(index).map_err(|(part, problem)| at(part, mesh, problem))?;
-        add(entry, combined, polygons, unique(entry.name.clone(), &mut taken), mesh);
+        let masked = links.base(index).filter(|_| entry.kind == Kind::Mask);
+        add(entry, [combined, masked], polygons, unique(entry.name.clone(), &mut taken), mesh);
     }
     Ok(())
 }
 
 /// Adds a surface: a group of one face, of a material of its own.
-fn add(entry: &Entry, combined: Option<usize>, polygons: Vec<Polygon>, name: String, mesh: &mut Mesh) {
+fn add(
+    entry: &Entry,
+    [combined, masked]: [Option<usize>; 2],
+    polygons: Vec<Polygon>,
+    name: String,
+    mesh: &mut Mesh,
+) {
     let spot = Spot::Line(entry.line);
     mesh.materials.insert(name.clone(), material(entry, mesh));
     let mut group = Group::new(None, Some(MaterialName { name, place: mesh.place(spot) }));
     group.is_obstruction = entry.kind != Kind::Radiating;
+    group.masks = masked;
     group.combined_with = combined;
     group.push(polygons, spot);
     mesh.groups.push(group);
@@ -68,7 +76,7 @@ fn add(entry: &Entry, combined: Option<usize>, polygons: Vec<Polygon>, name: Str
 /// ρ = 1 − ε; what only blocks is black.
 fn material(entry: &Entry, mesh: &Mesh) -> Material {
     let reflectance = match entry.kind {
-        Kind::Radiating => 1.0 - entry.emittance.max(LEAST_EMITTANCE),
+        Kind::Radiating | Kind::Mask => 1.0 - entry.emittance.max(LEAST_EMITTANCE),
         _ => 0.0,
     };
     let place = mesh.place(Spot::Line(entry.line));
@@ -76,7 +84,7 @@ fn material(entry: &Entry, mesh: &Mesh) -> Material {
 }
 
 fn warn_of_white(entry: &Entry, mesh: &mut Mesh) {
-    if entry.kind == Kind::Radiating && entry.emittance < LEAST_EMITTANCE {
+    if matches!(entry.kind, Kind::Radiating | Kind::Mask) && entry.emittance < LEAST_EMITTANCE {
         let (number, emittance) = (entry.number, entry.emittance);
         let message = format!(
             "the emittance {emittance} of surface {number} is replaced by {LEAST_EMITTANCE}, as View3D does"
@@ -120,7 +128,7 @@ impl Links<'_> {
         }
         let (number, head) = (entry.number, entry.combine);
         let other = self.named(head, entry, "`cmb`")?;
-        if entry.kind == Kind::Null || self.entries[other].kind != Kind::Radiating {
+        if entry.kind != Kind::Radiating || self.entries[other].kind != Kind::Radiating {
             return malformed(format!(
                 "surfaces {number} and {head} cannot be combined: both must radiate (`S`)"
             ));
@@ -144,9 +152,10 @@ impl Links<'_> {
     fn check_base(&self, index: usize) -> Result<(), Problem> {
         let entry = &self.entries[index];
         let (number, base) = (entry.number, entry.base);
-        if entry.kind == Kind::Null && base == 0 {
+        let role = if entry.kind == Kind::Mask { "masking" } else { "null" };
+        if matches!(entry.kind, Kind::Null | Kind::Mask) && base == 0 {
             return malformed(format!(
-                "null surface {number} has no base; give the surface that it is cut out of"
+                "{role} surface {number} has no base; give the surface that it is a part of"
             ));
         }
         if entry.kind == Kind::Obstruction || base == 0 {
@@ -154,7 +163,12 @@ impl Links<'_> {
         }
         let under = self.named(base, entry, "base")?;
         let kind = self.entries[under].kind;
-        if kind == Kind::Null || (kind == Kind::Radiating && under >= index) {
+        if entry.kind == Kind::Mask && kind != Kind::Radiating {
+            return malformed(format!(
+                "masking surface {number} cannot have the base {base}, which does not radiate: give a surface (`S`)"
+            ));
+        }
+        if matches!(kind, Kind::Null | Kind::Mask) || (kind == Kind::Radiating && under >= index) {
             return malformed(format!(
                 "surface {number} cannot have the base {base}: a base radiates (`S`) and has a lower number, or is an \
                  obstruction (`O`)"
@@ -171,8 +185,8 @@ impl Links<'_> {
         }
         let cosine = shape[0].normal().dot(ground[0].normal());
         match entry.kind {
-            Kind::Null if cosine > -PARALLEL => malformed(format!(
-                "null surface {number} does not face its base {base}; reverse the order of its vertices"
+            Kind::Null | Kind::Mask if cosine > -PARALLEL => malformed(format!(
+                "{role} surface {number} does not face its base {base}; reverse the order of its vertices"
             )),
             Kind::Radiating if cosine < PARALLEL => malformed(format!(
                 "surface {number} does not face where its base {base} does; reverse the order of its vertices"

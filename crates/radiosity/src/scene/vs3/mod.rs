@@ -1,16 +1,16 @@
 //! The reader of View3D's input (`.vs3`): vertices and surfaces, in metres; each surface is a face with its own name.
 //!
 //! Read are the title `T`, the control line `C` (see [`Control`]), the geometries `F 3` and `F 3a`, vertices `V` under
-//! any numbers and in any place, surfaces `S`, obstructions `O`, null surfaces `N`, comments and the end `E` or `*`.
+//! any numbers and in any place, surfaces `S`, obstructions `O`, masking surfaces `M`, null surfaces `N`, comments and the end `E` or `*`.
 //! Lengths have no unit in the format and are metres unless a scene file says otherwise.
 //!
 //! - A surface with emittance ε is grey, of reflectance 1 − ε, and a material can be given to its name.
 //! - A *subsurface* (its `base` is not 0) is cut out of its base, so that no point belongs to two faces; a null surface
 //!   as well, and then only blocks.
 //! - A surface *combined* with another (`cmb`) makes one row with it: [`Face::combined_with`](super::Face).
+//! - A masking surface lies upon a part of its base, front to front: the two see each other there and nothing else,
+//!   [`Face::masks`](super::Face). The base keeps that part in its area. Only view factors know of it.
 //! - An obstruction blocks and is black: [`Face::is_obstruction`](super::Face).
-//!
-//! Masking surfaces `M` are refused: two faces in one place have no view factor that rays could find.
 
 mod control;
 mod entry;
@@ -77,10 +77,7 @@ impl Reader {
             Some('S') => self.take_surface(Kind::Radiating, number, rest)?,
             Some('N') => self.take_surface(Kind::Null, number, rest)?,
             Some('O') => self.take_surface(Kind::Obstruction, number, rest)?,
-            Some('M') => return malformed(
-                "masking surfaces (`M`) are not read: they lie in one place with their base; leave it out, or make it \
-                 a null surface (`N`)".to_owned(),
-            ),
+            Some('M') => self.take_surface(Kind::Mask, number, rest)?,
             _ => {
                 let place = self.mesh.place(Spot::Line(number));
                 self.mesh.warn(place, format!("`{first}` begins no line that is known; it is passed over"));
@@ -143,7 +140,8 @@ impl Reader {
             return Err(Problem::Malformed(problem).at(self.mesh.place(Spot::Line(entry.line))));
         }
         self.entries.sort_by_key(|entry| entry.number);
-        let radiating = self.entries.iter().filter(|entry| entry.kind == Kind::Radiating).count();
+        let radiates = |entry: &&Entry| matches!(entry.kind, Kind::Radiating | Kind::Mask);
+        let radiating = self.entries.iter().filter(radiates).count();
         for (word, asked) in [("row", self.control.row), ("col", self.control.column)] {
             if let Some(asked) = asked.filter(|&asked| asked > radiating) {
                 let problem =
