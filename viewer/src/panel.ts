@@ -5,7 +5,7 @@ import { swatch, type Material } from './materials';
 import type { Scene, Solver } from './protocol';
 import { QUANTITIES } from './quantities';
 import { text } from './scale';
-import { DISPLAYS, type Settings } from './settings';
+import { offered, type Settings } from './settings';
 
 export function element<T extends HTMLElement = HTMLElement>(id: string): T {
   const found = document.getElementById(id);
@@ -51,8 +51,7 @@ export class Panel {
     const solvers = scene.solvers.map((solver): [string, string, string] => [solver, METHODS[solver].name, METHODS[solver].tip]);
     fill('solver', solvers);
     fill('rival', [['', 'nobody', 'One solver alone'], ...solvers]);
-    const shown = DISPLAYS.filter((display) => scene.solvers.length > 0 || (display !== 'received' && display !== 'sent'));
-    fill('display', shown.map((display) =>
+    fill('display', offered(scene).map((display) =>
       display === 'light' ? [display, 'light, as the eye sees it', ''] : [display, QUANTITIES[display].name, QUANTITIES[display].hint],
     ));
     element<HTMLSelectElement>('rival').disabled = scene.solvers.length < 2;

@@ -17,6 +17,7 @@ mod relight;
 mod server;
 mod session;
 mod setup;
+mod shared;
 pub mod solvers;
 mod stage;
 

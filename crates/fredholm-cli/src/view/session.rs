@@ -297,7 +297,7 @@ impl Run<'_> {
         self.lanes.iter().map(Lane::work).fold(0.0, f64::max)
     }
 
-    /// Iterates until the work is done or the time is up, the one with the least work first; says whether anything was done.
+    /// Iterates until the work is done or the time is up, the one that will have done least first; says whether anything was done.
     fn advance(&mut self, due: f64, until: Option<Instant>) -> bool {
         let mut worked = false;
         while self.iterate(due) {
@@ -312,11 +312,12 @@ impl Run<'_> {
     fn iterate(&mut self, due: f64) -> bool {
         // Half a shot of slack: sums of many small costs do not meet the due exactly.
         let slack = 0.5 / self.setup.source.len() as f64;
-        let ready = |lane: &&mut Lane<'_>| lane.runs() && lane.work() + lane.cost() <= due + slack;
-        let least = |a: &&mut Lane<'_>, b: &&mut Lane<'_>| a.work().total_cmp(&b.work());
+        // Who would have done least after it: a sweep waits until the other has shot as much.
+        let after = |lane: &Lane<'_>| lane.work() + lane.cost();
+        let ready = |lane: &&mut Lane<'_>| lane.runs() && after(lane) <= due + slack;
+        let least = |a: &&mut Lane<'_>, b: &&mut Lane<'_>| after(a).total_cmp(&after(b));
         let Some(lane) = self.lanes.iter_mut().filter(ready).min_by(least) else { return false };
-        let last = lane.work() + 2.0 * lane.cost() > due + slack;
-        lane.sweep(last);
+        lane.sweep();
         true
     }
 }
@@ -395,6 +396,26 @@ mod tests {
         let n = stage.patches.len() as u32;
         let last: Vec<_> = frames[frames.len() - 2..].iter().map(|frame| frame.0).collect();
         assert_eq!(last, [[2, 0, 2, 0], [2, 1, 2 * n, 0]]);
+    }
+
+    #[test]
+    fn no_solver_is_ahead_when_the_time_is_up() {
+        let stage = cornell(200);
+        let computed = stage.form_factors();
+        let kept = stage.kept(&computed);
+        let setup = Setup::of(&stage, Solver::GaussSeidel);
+        let system = System::new(&setup.source, &setup.reflectance, &kept).unwrap();
+        let lane = |solver| Lane::new(solver, system, &stage.patches.areas, setup.target);
+        let lanes = [Solver::GaussSeidel, Solver::Southwell].map(lane).into_iter().collect();
+        let mut run = Run { setup: &setup, kept: &kept, norm: 0.5, lanes };
+        let past = Instant::now();
+        for _ in 0..10 {
+            assert!(run.advance(5.0, Some(past)));
+        }
+        assert_eq!((run.lanes[0].iteration(), run.lanes[1].iteration()), (0, 10));
+        run.advance(5.0, None);
+        let n = stage.patches.len();
+        assert_eq!((run.lanes[0].iteration(), run.lanes[1].iteration()), (5, 5 * n));
     }
 
     #[test]

@@ -108,9 +108,9 @@ impl<'a> Lane<'a> {
         self.state == State::Running
     }
 
-    /// One iteration; `watched` finds out which patch is shot.
-    pub fn sweep(&mut self, watched: bool) {
-        self.shot = (self.shoots && watched).then(|| self.brightest());
+    /// One iteration.
+    pub fn sweep(&mut self) {
+        self.shot = self.shoots.then(|| self.brightest());
         let norm = self.relaxation.sweep();
         self.iteration += 1;
         self.smallest = self.smallest.min(norm);
