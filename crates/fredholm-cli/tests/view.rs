@@ -7,7 +7,7 @@ mod run;
 use run::{folder, fredholm, json, names, refuse, text};
 use serde_json::{Value, json as said};
 use std::fs;
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
 use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
@@ -224,7 +224,15 @@ fn nonsense_is_told_and_survived() {
     // A message beyond all measure ends its own session, and no other.
     let mut other = server.session(None).unwrap();
     let _ = other.0.send(Message::Text("x".repeat(1 << 20).into()));
-    while other.0.read().is_ok() {}
+    let ended = loop {
+        if let Err(error) = other.0.read() {
+            break error;
+        }
+    };
+    assert!(
+        !matches!(&ended, tungstenite::Error::Io(error) if error.kind() == ErrorKind::WouldBlock),
+        "it goes on"
+    );
     // So does a page that goes without a word.
     drop(server.session(None).unwrap().0.into_inner());
     session.say(&said!({"type": "step"}));

@@ -75,10 +75,10 @@ pub fn command(args: &View) -> Result<Ending> {
             hall.stage.patches.len()
         ),
     )?;
-    if !args.no_open {
-        if let Err(error) = open::that_detached(&address) {
-            warn(&format!("no browser opens ({error}); open {address} in one"))?;
-        }
+    if !args.no_open
+        && let Err(error) = open::that_detached(&address)
+    {
+        warn(&format!("no browser opens ({error}); open {address} in one"))?;
     }
     server::serve(listener, hall).context("the server ends")?;
     Ok(Ending::Converged)

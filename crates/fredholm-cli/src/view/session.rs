@@ -157,10 +157,10 @@ impl<'a> Session<'a> {
 
     /// Does what is due.
     fn go_on(&mut self, run: &mut Run<'_>) -> Option<()> {
-        if let (true, Some(Ok(matrix))) = (self.relight.is_busy(), self.stage.matrix()) {
-            if let Some(answer) = self.relight.advance(self.stage, &matrix.entries) {
-                self.tell(answer)?;
-            }
+        if let Some(Ok(matrix)) = self.stage.matrix()
+            && let Some(answer) = self.relight.advance(self.stage, &matrix.entries)
+        {
+            self.tell(answer)?;
         }
         if self.pace.is_playing() && run.runs() && self.pace.rest().is_none_or(|rest| rest.is_zero()) {
             let (due, until) = self.pace.tick();

@@ -51,10 +51,10 @@ impl Shared {
         if let Some(known) = kept.columns.get(&j) {
             return Arc::clone(known);
         }
-        if kept.order.len() == self.most {
-            if let Some(oldest) = kept.order.pop_front() {
-                kept.columns.remove(&oldest);
-            }
+        if kept.order.len() == self.most
+            && let Some(oldest) = kept.order.pop_front()
+        {
+            kept.columns.remove(&oldest);
         }
         let column = Column::default();
         kept.columns.insert(j, Arc::clone(&column));
