@@ -335,9 +335,9 @@ class Page {
     const { run, relit, settings } = this;
     const frame = run?.frame(lane);
     if (!run || !frame) return undefined;
-    const emission = this.scene.surfaces.map((surface) => {
-      const lamp = this.scene.lamps.indexOf(surface.name);
-      return surface.emission.map((e) => e * (lamp < 0 ? 1 : settings.lamps[lamp]!));
+    const emission = this.scene.surfaces.map((surface) => surface.emission);
+    this.scene.lamps.forEach((lamp, k) => {
+      for (const s of lamp.surfaces) emission[s] = emission[s]!.map((e) => e * settings.lamps[k]!);
     });
     const common = { factors: this.factors, reflectance: this.reflectance, emission, first: run.histories[0]!.points[0]?.residual ?? 0 };
     if (relit.isShown) {

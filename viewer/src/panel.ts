@@ -123,11 +123,11 @@ export class Panel {
       return label;
     };
     const lampColour = (k: number): number[] => {
-      const emission = scene.surfaces.find((surface) => surface.name === scene.lamps[k])?.emission ?? [1, 1, 1];
+      const emission = scene.surfaces[scene.lamps[k]!.surfaces[0] ?? -1]?.emission ?? [1, 1, 1];
       const most = Math.max(...emission) || 1;
       return emission.map((e) => e / most);
     };
-    const lamps = scene.lamps.map((name, k) =>
+    const lamps = scene.lamps.map(({ name }, k) =>
       slider(2, name, lampColour(k), (value) => (settings.lamps[k] = value), () => wishes.lamps()));
     const rho = materials.map((material, k) =>
       slider(Math.max(0.95, material.strongest), material.name, material.colour, (value) => (settings.materials[k] = value), () => wishes.materials()));

@@ -127,7 +127,7 @@ impl<'a> Session<'a> {
         self.pace.restart();
         let (solvers, target) = (setup.solvers.clone(), setup.target);
         self.remark(&Remark::Started { run: self.run, solvers, norm, target })?;
-        self.frames(&run)?;
+        self.frames(&mut run)?;
         loop {
             self.look()?;
             match self.inbox.next(self.patience(&run)) {
@@ -251,8 +251,8 @@ impl<'a> Session<'a> {
         self.remark(&Remark::Assembly { done, of })
     }
 
-    fn frames(&mut self, run: &Run<'_>) -> Option<()> {
-        for (k, lane) in run.lanes.iter().enumerate() {
+    fn frames(&mut self, run: &mut Run<'_>) -> Option<()> {
+        for (k, lane) in run.lanes.iter_mut().enumerate() {
             self.tell(Message::Bytes(lane.frame(k, self.run, run.norm)))?;
         }
         Some(())
@@ -271,7 +271,8 @@ impl<'a> Session<'a> {
     }
 }
 
-fn too_large(stage: &Stage) -> String {
+/// What is told of a scene whose F is not stored.
+pub fn too_large(stage: &Stage) -> String {
     format!(
         "the form factors of {} patches are too many to be stored: only southwell, which stores none, can be \
          watched, and lamps and materials need a new start; take larger patches",
