@@ -138,7 +138,10 @@ test('the keyboard does what the mouse does', async ({ page }) => {
   await expect(page.getByLabel('quantity')).toHaveValue('radiosity');
   await page.keyboard.press(' ');
   await page.waitForFunction(() => Number(document.body.dataset['iteration']) > 5);
+  await page.keyboard.press(' ');
+  await page.waitForTimeout(500);
   const before = await meanColour(page);
+  expect(Math.hypot(...(await meanColour(page)).map((c, k) => c - before[k]!)), 'it is not paused').toBeLessThan(1e-6);
   await page.keyboard.press('g');
   await page.locator('#picture').focus();
   await page.keyboard.down('w');
