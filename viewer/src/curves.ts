@@ -28,7 +28,7 @@ export interface Look {
 
 /** Between the two plots, and left and right of a plot's area, in pixels. */
 const GAP = 12;
-const LEFT = 34;
+const LEFT = 40;
 const RIGHT = 6;
 
 const most = (points: Point[]): number => points.reduce((largest, point) => Math.max(largest, point.work), 0) || 1;
