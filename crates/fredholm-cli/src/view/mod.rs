@@ -13,6 +13,7 @@ mod lamps;
 mod pace;
 pub mod page;
 pub mod protocol;
+mod race;
 mod relight;
 mod server;
 mod session;

@@ -5,6 +5,7 @@ use super::inbox::{Heard, Inbox};
 use super::kept::Kept;
 use super::pace::Pace;
 use super::protocol::{Command, Message, Remark, factors};
+use super::race::Run;
 use super::relight::Relight;
 use super::setup::{Setup, check};
 use super::solvers::{Lane, Solver};
@@ -145,7 +146,7 @@ impl<'a> Session<'a> {
     /// How long to wait for a command before there is something to do.
     fn patience(&self, run: &Run<'_>) -> Option<Duration> {
         let playing = if run.runs() { self.pace.rest() } else { None };
-        if self.relight.is_busy() && self.stage.matrix().is_some() {
+        if self.relight.is_busy() && matches!(self.stage.matrix(), Some(Ok(_))) {
             return Some(Duration::ZERO);
         }
         playing.or_else(|| (self.is_assembling() || self.relight.is_busy()).then_some(LOOK))
@@ -231,6 +232,9 @@ impl<'a> Session<'a> {
         if let Err(error) = check(self.stage, reflectance) {
             return self.refuse(format!("{error:#}"));
         }
+        if let Some(Err(message)) = self.stage.matrix() {
+            return self.refuse(message.clone());
+        }
         if !self.stage.is_stored() {
             return self.refuse(too_large(self.stage));
         }
@@ -278,49 +282,6 @@ pub fn too_large(stage: &Stage) -> String {
          watched, and lamps and materials need a new start; take larger patches",
         stage.patches.len()
     )
-}
-
-/// The solvers of now.
-struct Run<'a> {
-    setup: &'a Setup,
-    kept: &'a Kept<'a>,
-    norm: f64,
-    lanes: Vec<Lane<'a>>,
-}
-
-impl Run<'_> {
-    fn runs(&self) -> bool {
-        self.lanes.iter().any(Lane::runs)
-    }
-
-    /// The work of the solver that has done most.
-    fn work(&self) -> f64 {
-        self.lanes.iter().map(Lane::work).fold(0.0, f64::max)
-    }
-
-    /// Iterates until the work is done or the time is up, the one that will have done least first; says whether anything was done.
-    fn advance(&mut self, due: f64, until: Option<Instant>) -> bool {
-        let mut worked = false;
-        while self.iterate(due) {
-            worked = true;
-            if until.is_some_and(|until| Instant::now() >= until) {
-                break;
-            }
-        }
-        worked
-    }
-
-    fn iterate(&mut self, due: f64) -> bool {
-        // Half a shot of slack: sums of many small costs do not meet the due exactly.
-        let slack = 0.5 / self.setup.source.len() as f64;
-        // Who would have done least after it: a sweep waits until the other has shot as much.
-        let after = |lane: &Lane<'_>| lane.work() + lane.cost();
-        let ready = |lane: &&mut Lane<'_>| lane.runs() && after(lane) <= due + slack;
-        let least = |a: &&mut Lane<'_>, b: &&mut Lane<'_>| after(a).total_cmp(&after(b));
-        let Some(lane) = self.lanes.iter_mut().filter(ready).min_by(least) else { return false };
-        lane.sweep();
-        true
-    }
 }
 
 #[cfg(test)]
@@ -397,26 +358,6 @@ mod tests {
         let n = stage.patches.len() as u32;
         let last: Vec<_> = frames[frames.len() - 2..].iter().map(|frame| frame.0).collect();
         assert_eq!(last, [[2, 0, 2, 0], [2, 1, 2 * n, 0]]);
-    }
-
-    #[test]
-    fn no_solver_is_ahead_when_the_time_is_up() {
-        let stage = cornell(200);
-        let computed = stage.form_factors();
-        let kept = stage.kept(&computed);
-        let setup = Setup::of(&stage, Solver::GaussSeidel);
-        let system = System::new(&setup.source, &setup.reflectance, &kept).unwrap();
-        let lane = |solver| Lane::new(solver, system, &stage.patches.areas, setup.target);
-        let lanes = [Solver::GaussSeidel, Solver::Southwell].map(lane).into_iter().collect();
-        let mut run = Run { setup: &setup, kept: &kept, norm: 0.5, lanes };
-        let past = Instant::now();
-        for _ in 0..10 {
-            assert!(run.advance(5.0, Some(past)));
-        }
-        assert_eq!((run.lanes[0].iteration(), run.lanes[1].iteration()), (0, 10));
-        run.advance(5.0, None);
-        let n = stage.patches.len();
-        assert_eq!((run.lanes[0].iteration(), run.lanes[1].iteration()), (5, 5 * n));
     }
 
     #[test]
