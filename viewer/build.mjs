@@ -7,13 +7,15 @@ import { fileURLToPath } from 'node:url';
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
 const page = (name) => here(`../crates/fredholm-cli/src/view/page/${name}`);
 
+// What the page draws with is another's work; its licence travels with it.
+const licence = (await readFile(here('node_modules/three/LICENSE'), 'utf8')).trim();
+
 const common = { bundle: true, minify: true, write: false, target: 'es2022', legalComments: 'none', charset: 'utf8' };
 const script = await build({
   ...common,
   entryPoints: [here('src/main.ts')],
   format: 'iife',
-  // Whatever the page draws with is MIT; its notice travels with it.
-  banner: { js: '/* three.js: Copyright 2010-2026 three.js authors, MIT licence */' },
+  banner: { js: `/* three.js\n${licence}\n*/` },
 });
 const style = await build({ ...common, entryPoints: [here('src/viewer.css')] });
 const built = {

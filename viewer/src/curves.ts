@@ -26,8 +26,22 @@ export interface Look {
   colours: [string, string];
 }
 
+/** Between the two plots, and left and right of a plot's area, in pixels. */
+const GAP = 12;
+const LEFT = 40;
+const RIGHT = 6;
+
+const most = (points: Point[]): number => points.reduce((largest, point) => Math.max(largest, point.work), 0) || 1;
+
 export class Curves {
   constructor(private readonly canvas: HTMLCanvasElement) {}
+
+  /** The work under a place of the canvas. */
+  workAt(x: number, points: Point[]): number {
+    const half = (this.canvas.clientWidth - GAP) / 2;
+    const within = (x % (half + GAP)) - LEFT;
+    return (Math.max(0, within) / (half - LEFT - RIGHT)) * most(points);
+  }
 
   draw(series: Series[], shown: number | undefined, look: Look): void {
     const { canvas } = this;
@@ -40,13 +54,11 @@ export class Curves {
     pen.scale(ratio, ratio);
     const all = series.flatMap(({ points }) => points);
     if (all.length === 0) return;
-    const most = Math.max(...all.map((point) => point.work)) || 1;
-    const gap = 12;
-    const half = (width - gap) / 2;
+    const half = (width - GAP) / 2;
     const plot = (left: number, kinds: Kind[], unit: string): void =>
-      new Plot(pen, { left, width: half, height }, most, look).draw(series, kinds, unit, shown);
+      new Plot(pen, { left, width: half, height }, most(all), look).draw(series, kinds, unit, shown);
     plot(0, [RESIDUAL, BOUND], look.units.exitance);
-    plot(half + gap, [UNSHOT], look.units.power);
+    plot(half + GAP, [UNSHOT], look.units.power);
   }
 }
 
@@ -69,7 +81,7 @@ class Plot {
 
   private get area(): { x: number; y: number; width: number; height: number } {
     const { left, width, height } = this.box;
-    return { x: left + 34, y: 16, width: width - 40, height: height - 32 };
+    return { x: left + LEFT, y: 16, width: width - LEFT - RIGHT, height: height - 32 };
   }
 
   draw(series: Series[], kinds: Kind[], unit: string, shown: number | undefined): void {

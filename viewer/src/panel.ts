@@ -5,7 +5,7 @@ import { swatch, type Material } from './materials';
 import type { Scene, Solver } from './protocol';
 import { QUANTITIES } from './quantities';
 import { text } from './scale';
-import { DISPLAYS, type Settings } from './settings';
+import { offered, type Settings } from './settings';
 
 export function element<T extends HTMLElement = HTMLElement>(id: string): T {
   const found = document.getElementById(id);
@@ -51,8 +51,7 @@ export class Panel {
     const solvers = scene.solvers.map((solver): [string, string, string] => [solver, METHODS[solver].name, METHODS[solver].tip]);
     fill('solver', solvers);
     fill('rival', [['', 'nobody', 'One solver alone'], ...solvers]);
-    const shown = DISPLAYS.filter((display) => scene.solvers.length > 0 || (display !== 'received' && display !== 'sent'));
-    fill('display', shown.map((display) =>
+    fill('display', offered(scene).map((display) =>
       display === 'light' ? [display, 'light, as the eye sees it', ''] : [display, QUANTITIES[display].name, QUANTITIES[display].hint],
     ));
     element<HTMLSelectElement>('rival').disabled = scene.solvers.length < 2;
@@ -124,11 +123,11 @@ export class Panel {
       return label;
     };
     const lampColour = (k: number): number[] => {
-      const emission = scene.surfaces.find((surface) => surface.name === scene.lamps[k])?.emission ?? [1, 1, 1];
+      const emission = scene.surfaces[scene.lamps[k]!.surfaces[0] ?? -1]?.emission ?? [1, 1, 1];
       const most = Math.max(...emission) || 1;
       return emission.map((e) => e / most);
     };
-    const lamps = scene.lamps.map((name, k) =>
+    const lamps = scene.lamps.map(({ name }, k) =>
       slider(2, name, lampColour(k), (value) => (settings.lamps[k] = value), () => wishes.lamps()));
     const rho = materials.map((material, k) =>
       slider(Math.max(0.95, material.strongest), material.name, material.colour, (value) => (settings.materials[k] = value), () => wishes.materials()));

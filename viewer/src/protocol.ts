@@ -24,7 +24,8 @@ export interface Scene {
   patch_size: number;
   units: { exitance: string; irradiance: string; radiance: string; power: string; length: string };
   surfaces: Surface[];
-  lamps: string[];
+  /** Which surfaces each lamp is; none if it is a point. */
+  lamps: { name: string; surfaces: number[] }[];
   camera: Camera;
   /** From radiance to a screen on which 1 is white. */
   exposure: number;

@@ -82,8 +82,8 @@ const ofLargest = (decades: number) => (values: Float32Array, _: Patches, sight:
 export const QUANTITIES: Record<Exclude<Display, 'light'>, Quantity> = {
   radiosity: {
     name: 'radiosity u, in false colours',
-    hint: 'What leaves each patch, emitted and reflected. Equal steps of the number look equal.',
-    title: (scene) => (isPhotometric(scene) ? 'luminance u/π' : 'radiosity u, luminance of the colours'),
+    hint: 'What leaves each patch, emitted and reflected; of a colour its luminance, 0.21 R + 0.72 G + 0.07 B.',
+    title: (scene) => (isPhotometric(scene) ? 'luminance u/π' : 'radiosity u'),
     unit: (scene) => (isPhotometric(scene) ? scene.units.radiance : scene.units.exitance),
     values: (sight, _, scene) => {
       const values = brightness(sight.radiosity);
@@ -94,8 +94,8 @@ export const QUANTITIES: Record<Exclude<Display, 'light'>, Quantity> = {
   },
   irradiance: {
     name: 'light received, Fu',
-    hint: 'What reaches each patch, from lamps and from all others. Not known on patches that reflect nothing: grey.',
-    title: (scene) => (isPhotometric(scene) ? 'illuminance' : 'irradiance, luminance of the colours'),
+    hint: 'What reaches each patch, from lamps and all others; of a colour its luminance. Not known where nothing is reflected: grey.',
+    title: (scene) => (isPhotometric(scene) ? 'illuminance' : 'irradiance'),
     unit: (scene) => scene.units.irradiance,
     values: irradiance,
     scale: around,

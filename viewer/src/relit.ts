@@ -5,7 +5,7 @@ import type { Message } from './protocol';
 type Lamp = Extract<Message, { type: 'lamp' }>;
 
 export class Relit {
-  /** Whether this is what is shown, in place of a solver's course. */
+  /** Whether this is wanted in place of a solver's course. */
   active = false;
   private version = 0;
   private parts: (Float32Array | undefined)[];
@@ -38,6 +38,11 @@ export class Relit {
   /** Whether the light of every lamp is there. */
   get isWhole(): boolean {
     return this.lamps > 0 && this.parts.every((part) => part !== undefined);
+  }
+
+  /** Whether it is wanted and there. */
+  get isShown(): boolean {
+    return this.active && this.isWhole;
   }
 
   /** The light of all lamps with these factors. */

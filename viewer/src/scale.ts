@@ -52,14 +52,14 @@ export function position(scale: Scale, value: number): number {
 
 /** Three or so digits. */
 export function text(value: number, digits = 3): string {
+  if (value < 0) return `−${text(-value, digits)}`;
   if (!Number.isFinite(value)) return '–';
-  const size = Math.abs(value);
   if (value === 0) return '0';
-  if (size >= 1e5 || size < 1e-3) {
+  if (value >= 1e5 && digits < 6 || value < 1e-3) {
     const [mantissa, exponent] = value.toExponential(Math.max(0, digits - 1)).split('e');
     return `${trim(mantissa!)}·10${[...exponent!.replace('+', '')].map((c) => SUPERSCRIPT[c]).join('')}`;
   }
-  return grouped(trim(Number(value.toPrecision(digits)).toFixed(Math.max(0, digits - 1 - Math.floor(Math.log10(size))))));
+  return grouped(trim(Number(value.toPrecision(digits)).toFixed(Math.max(0, digits - 1 - Math.floor(Math.log10(value))))));
 }
 
 /** A mark of a scale. */

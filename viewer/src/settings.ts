@@ -3,8 +3,12 @@
 import type { Scene, Solver } from './protocol';
 import type { Tone } from './view';
 
-export const DISPLAYS = ['light', 'radiosity', 'irradiance', 'unshot', 'error', 'difference', 'received', 'sent'] as const;
+const DISPLAYS = ['light', 'radiosity', 'irradiance', 'unshot', 'error', 'difference', 'received', 'sent'] as const;
 export type Display = (typeof DISPLAYS)[number];
+
+/** What can be shown: form factors only where somebody can be asked for them. */
+export const offered = (scene: Scene): Display[] =>
+  DISPLAYS.filter((display) => scene.solvers.length > 0 || (display !== 'received' && display !== 'sent'));
 
 export interface Settings {
   solver: Solver;
@@ -21,6 +25,8 @@ export interface Settings {
   /** Passes a second, or the method's own. */
   speed: number | undefined;
   paused: boolean;
+  /** Whether lamps and materials are as they are by relighting, and no solver's course is shown. */
+  relit: boolean;
   /** A factor for each lamp. */
   lamps: number[];
   /** The strongest channel of each material. */
@@ -44,6 +50,7 @@ export function initial(scene: Scene, materials: number[]): Settings {
     theme: 'auto',
     speed: undefined,
     paused: false,
+    relit: false,
     lamps: scene.lamps.map(() => 1),
     materials,
     patch: undefined,
@@ -73,7 +80,7 @@ export function read(hash: string, scene: Scene, settings: Settings): Settings {
   return {
     solver,
     rival: scene.solvers.find((rival) => rival === said.get('rival') && rival !== solver),
-    display: one('show', DISPLAYS, settings.display),
+    display: one('show', offered(scene), settings.display),
     smooth: flag('smooth', settings.smooth),
     mesh: flag('mesh', settings.mesh),
     contours: flag('contours', settings.contours),
@@ -83,6 +90,7 @@ export function read(hash: string, scene: Scene, settings: Settings): Settings {
     theme: one('theme', ['auto', 'light', 'dark'], settings.theme),
     speed: number('speed', 1e-6, 1e3),
     paused: flag('paused', settings.paused),
+    relit: flag('relit', settings.relit) && scene.stored,
     lamps: numbers('lamps', scene.lamps.length, 0, 10) ?? settings.lamps,
     materials: numbers('materials', settings.materials.length, 0, 0.99) ?? settings.materials,
     patch: patch !== undefined && Number.isInteger(patch) ? patch : undefined,
@@ -101,7 +109,7 @@ export function write(settings: Settings, first: Settings): string {
   say('solver', settings.solver, first.solver);
   say('rival', settings.rival, undefined);
   say('show', settings.display, first.display);
-  for (const key of ['smooth', 'mesh', 'contours', 'walk', 'exposure', 'tone', 'theme', 'paused'] as const) {
+  for (const key of ['smooth', 'mesh', 'contours', 'walk', 'exposure', 'tone', 'theme', 'paused', 'relit'] as const) {
     say(key, settings[key], first[key]);
   }
   say('speed', settings.speed && Number(settings.speed.toPrecision(4)), undefined);

@@ -45,7 +45,7 @@ test('the picture has the brightness of the solution', async ({ page }) => {
   });
 });
 
-test('a dimmed lamp is that much less light, at once', async ({ page }) => {
+test('a dimmed lamp is that much less light, at once', async ({ page, context }) => {
   await visit(page, `${cornell.address}#solver=gauss-seidel&speed=50&tone=linear&exposure=-2`);
   await converged(page);
   const full = await meanColour(page, { x: 0.4, y: 0.5, width: 0.2, height: 0.3 });
@@ -56,8 +56,13 @@ test('a dimmed lamp is that much less light, at once', async ({ page }) => {
     for (const c of [0, 1]) expect(half[c]! / full[c]!).toBeCloseTo(0.5, 1.7);
   }).toPass();
   expect(page.url()).toContain('lamps=0.5');
-  // Solved anew with that lamp it is the same.
   const relit = await meanColour(page);
+  // Whoever is sent the address sees the same.
+  const again = await context.newPage();
+  await visit(again, page.url());
+  await expect(again.locator('#now')).toContainText('Relit');
+  await expect(async () => expect((await meanColour(again))[1]! / relit[1]!).toBeCloseTo(1, 1.7)).toPass();
+  // Solved anew with that lamp it is the same.
   await page.getByRole('button', { name: 'Restart' }).click();
   await converged(page);
   const solved = await meanColour(page);
@@ -111,12 +116,14 @@ test('two solvers race, and the address says so', async ({ page, context }) => {
   await expect(page.locator('#lanes span')).toHaveCount(2);
   await page.waitForFunction(() => document.querySelectorAll('#numbers span').length === 2);
   await page.getByLabel('quantity').selectOption('difference');
+  await expect(page.locator('#lanes span'), 'a difference is one picture').toHaveCount(0);
+  await page.getByLabel('quantity').selectOption('radiosity');
   await page.keyboard.press('m');
   await expect(page).toHaveURL(/rival=gauss-seidel/);
   const again = await context.newPage();
   await visit(again, page.url());
   await expect(again.locator('#lanes span')).toHaveCount(2);
-  await expect(again.getByLabel('quantity')).toHaveValue('difference');
+  await expect(again.getByLabel('quantity')).toHaveValue('radiosity');
   await expect(again.getByLabel('mesh')).toBeChecked();
 });
 
@@ -131,7 +138,10 @@ test('the keyboard does what the mouse does', async ({ page }) => {
   await expect(page.getByLabel('quantity')).toHaveValue('radiosity');
   await page.keyboard.press(' ');
   await page.waitForFunction(() => Number(document.body.dataset['iteration']) > 5);
+  await page.keyboard.press(' ');
+  await page.waitForTimeout(500);
   const before = await meanColour(page);
+  expect(Math.hypot(...(await meanColour(page)).map((c, k) => c - before[k]!)), 'it is not paused').toBeLessThan(1e-6);
   await page.keyboard.press('g');
   await page.locator('#picture').focus();
   await page.keyboard.down('w');
@@ -148,6 +158,8 @@ test('a phone has room for all of it, in the dark too', async ({ page }) => {
   expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(360);
   for (const id of ['picture', 'play', 'step', 'scrub', 'speed-said', 'curves', 'legend', 'formula']) {
     const box = (await page.locator(`#${id}`).boundingBox())!;
+    const stage = (await page.locator('#stage').boundingBox())!;
+    if (id === 'legend') expect(box.y >= stage.y && box.y + box.height <= stage.y + stage.height, 'legend').toBe(true);
     expect(box.x >= 0 && box.x + box.width <= 361 && box.y + box.height <= 740, `${id}: ${JSON.stringify(box)}`).toBe(true);
   }
 });

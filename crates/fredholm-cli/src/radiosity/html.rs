@@ -88,8 +88,8 @@ impl Recording {
             unshot: unshot(&residual, &patches.areas),
         };
         let mut halves = Vec::with_capacity(8 * patches.len());
-        let first = scaled(&mut halves, radiosity.iter().flat_map(|colour| colour.0).collect());
-        let second = scaled(&mut halves, residual.iter().map(Value::magnitude).collect());
+        let first = scaled(&mut halves, &radiosity.iter().flat_map(|colour| colour.0).collect::<Vec<f64>>());
+        let second = scaled(&mut halves, &residual.iter().map(Value::magnitude).collect::<Vec<f64>>());
         self.frames.push(Frame { head, scales: [first, second], halves });
     }
 
@@ -138,7 +138,7 @@ impl Frame {
 }
 
 /// Numbers as halves of the largest, which is returned: an exitance in lm/m² may be more than a half can hold.
-fn scaled(bytes: &mut Vec<u8>, numbers: Vec<f64>) -> f32 {
+fn scaled(bytes: &mut Vec<u8>, numbers: &[f64]) -> f32 {
     let largest = numbers.iter().fold(0.0_f64, |largest, number| largest.max(number.abs())) as f32;
     let scale = if largest > 0.0 { largest } else { 1.0 };
     numbers.iter().for_each(|number| bytes.extend(f16::from_f64(number / f64::from(scale)).to_le_bytes()));

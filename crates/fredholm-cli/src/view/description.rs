@@ -27,7 +27,7 @@ pub struct Description {
     /// The surfaces, in the order of their patches.
     pub surfaces: Vec<Surface>,
     /// The lamps, in the order of their factors; none where nothing can be dimmed.
-    pub lamps: Vec<String>,
+    pub lamps: Vec<Dimmable>,
     /// Where it is looked at from at first.
     pub camera: Viewpoint,
     /// From radiance to a screen on which 1 is white.
@@ -61,6 +61,20 @@ impl Symbols {
             power,
             length: "m",
         }
+    }
+}
+
+/// A lamp.
+#[derive(Clone, Debug, Serialize)]
+pub struct Dimmable {
+    name: String,
+    /// Which surfaces it is; none if it is a point.
+    surfaces: Vec<usize>,
+}
+
+impl Dimmable {
+    fn new(lamp: &Lamp) -> Self {
+        Self { name: lamp.name.clone(), surfaces: lamp.surfaces.clone() }
     }
 }
 
@@ -129,7 +143,7 @@ impl Description {
     pub fn with(self, lamps: &[Lamp], first: Solver, stored: bool, row_sum: f64) -> Self {
         let others = Solver::ALL.into_iter().filter(|solver| *solver != first && (stored || solver.shoots()));
         Self {
-            lamps: lamps.iter().map(|lamp| lamp.name.clone()).collect(),
+            lamps: lamps.iter().map(Dimmable::new).collect(),
             solvers: std::iter::once(first).chain(others).collect(),
             stored,
             row_sum,

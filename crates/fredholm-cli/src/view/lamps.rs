@@ -10,7 +10,7 @@ use radiosity::visibility::Visibility;
 pub struct Lamp {
     /// What it is called.
     pub name: String,
-    /// The surfaces that emit, by number; none of a point light.
+    /// The surfaces that emit, by number and in their order; none of a point light.
     pub surfaces: Vec<usize>,
     /// The point lights, by number; none of a surface.
     pub points: Vec<usize>,
@@ -69,7 +69,7 @@ impl Lamp {
     /// Adds g f_k = g (E_k + ρ H_k) to a source.
     pub fn add_to(&self, source: &mut [Rgb], gain: f64, patches: &Patches<Rgb>, reflectance: &[Rgb]) {
         for (i, f) in source.iter_mut().enumerate() {
-            if self.surfaces.contains(&(patches.surface[i] as usize)) {
+            if self.surfaces.binary_search(&(patches.surface[i] as usize)).is_ok() {
                 *f += patches.emission[i] * gain;
             }
         }

@@ -13,10 +13,12 @@ mod lamps;
 mod pace;
 pub mod page;
 pub mod protocol;
+mod race;
 mod relight;
 mod server;
 mod session;
 mod setup;
+mod shared;
 pub mod solvers;
 mod stage;
 
@@ -57,7 +59,13 @@ pub fn command(args: &View) -> Result<Ending> {
     let how = discretisation(args, &wishes, &scene)?;
     let listener = listen(args.port)?;
     let port = listener.local_addr()?.port();
-    let hall = Arc::new(hall(Stage::new(scene, units, how)?, solver, port)?);
+    let stage = Stage::new(scene, units, how)?;
+    let solver = match solver {
+        Some(solver) if !solver.shoots() && !stage.is_stored() => bail!("{}", session::too_large(&stage)),
+        Some(solver) => solver,
+        None => Solver::Southwell,
+    };
+    let hall = Arc::new(hall(stage, solver, port)?);
     if hall.stage.is_stored() {
         let hall = Arc::clone(&hall);
         // A pool of their own: in the common one they would be in the way of every shot until all of them are there.
@@ -74,10 +82,10 @@ pub fn command(args: &View) -> Result<Ending> {
             hall.stage.patches.len()
         ),
     )?;
-    if !args.no_open {
-        if let Err(error) = open::that_detached(&address) {
-            warn(&format!("no browser opens ({error}); open {address} in one"))?;
-        }
+    if !args.no_open
+        && let Err(error) = open::that_detached(&address)
+    {
+        warn(&format!("no browser opens ({error}); open {address} in one"))?;
     }
     server::serve(listener, hall).context("the server ends")?;
     Ok(Ending::Converged)
@@ -111,14 +119,16 @@ fn scene(args: &View) -> Result<(Scene<Rgb>, Units, SolveOptions)> {
     Ok((loaded.scene, loaded.units, loaded.solve))
 }
 
-fn solver(args: &View, wishes: &SolveOptions) -> Result<Solver> {
+/// The solver that begins, if one is asked for.
+fn solver(args: &View, wishes: &SolveOptions) -> Result<Option<Solver>> {
     let file = args.scene.as_deref().unwrap_or(Path::new(""));
     // Only what is said on the command line must be followed: a file asks for an answer, a window for a sight.
     let wished = wish("solver", wishes.solver.as_deref(), file)?.and_then(Solver::watched);
     match args.solver {
         Some(solver) => Solver::watched(solver)
-            .context("the direct solver has no steps to be watched; choose another, or `fredholm radiosity`"),
-        None => Ok(wished.unwrap_or(Solver::Southwell)),
+            .context("the direct solver has no steps to be watched; choose another, or `fredholm radiosity`")
+            .map(Some),
+        None => Ok(wished),
     }
 }
 

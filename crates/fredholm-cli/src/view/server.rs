@@ -43,8 +43,9 @@ pub struct Hall {
 /// Windows at once: each has a solver that may work. Who opens more has lost sight of them.
 pub const SEATS: usize = 16;
 
-/// The longest message of a page, in bytes: the reflectances of a thousand surfaces.
-const LONGEST: usize = 1 << 17;
+/// The longest message of a page, in bytes, is one with a reflectance for each surface: three numbers of 20 digits or so.
+const LONGEST: usize = 1 << 16;
+const LONGEST_OF_SURFACE: usize = 80;
 
 /// Commands that a page may be ahead of its solver.
 const AHEAD: usize = 256;
@@ -112,7 +113,8 @@ async fn session(State(hall): State<Arc<Hall>>, upgrade: WebSocketUpgrade) -> Re
         return (StatusCode::SERVICE_UNAVAILABLE, format!("{SEATS} windows are open; close one"))
             .into_response();
     };
-    upgrade.max_message_size(LONGEST).max_frame_size(LONGEST).on_upgrade(async move |socket| {
+    let longest = LONGEST + LONGEST_OF_SURFACE * hall.stage.scene.surfaces.len();
+    upgrade.max_message_size(longest).max_frame_size(longest).on_upgrade(async move |socket| {
         converse(socket, hall).await;
         drop(seat);
     })

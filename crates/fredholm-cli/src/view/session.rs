@@ -5,6 +5,7 @@ use super::inbox::{Heard, Inbox};
 use super::kept::Kept;
 use super::pace::Pace;
 use super::protocol::{Command, Message, Remark, factors};
+use super::race::Run;
 use super::relight::Relight;
 use super::setup::{Setup, check};
 use super::solvers::{Lane, Solver};
@@ -127,7 +128,7 @@ impl<'a> Session<'a> {
         self.pace.restart();
         let (solvers, target) = (setup.solvers.clone(), setup.target);
         self.remark(&Remark::Started { run: self.run, solvers, norm, target })?;
-        self.frames(&run)?;
+        self.frames(&mut run)?;
         loop {
             self.look()?;
             match self.inbox.next(self.patience(&run)) {
@@ -145,7 +146,7 @@ impl<'a> Session<'a> {
     /// How long to wait for a command before there is something to do.
     fn patience(&self, run: &Run<'_>) -> Option<Duration> {
         let playing = if run.runs() { self.pace.rest() } else { None };
-        if self.relight.is_busy() && self.stage.matrix().is_some() {
+        if self.relight.is_busy() && matches!(self.stage.matrix(), Some(Ok(_))) {
             return Some(Duration::ZERO);
         }
         playing.or_else(|| (self.is_assembling() || self.relight.is_busy()).then_some(LOOK))
@@ -157,10 +158,10 @@ impl<'a> Session<'a> {
 
     /// Does what is due.
     fn go_on(&mut self, run: &mut Run<'_>) -> Option<()> {
-        if let (true, Some(Ok(matrix))) = (self.relight.is_busy(), self.stage.matrix()) {
-            if let Some(answer) = self.relight.advance(self.stage, &matrix.entries) {
-                self.tell(answer)?;
-            }
+        if let Some(Ok(matrix)) = self.stage.matrix()
+            && let Some(answer) = self.relight.advance(self.stage, &matrix.entries)
+        {
+            self.tell(answer)?;
         }
         if self.pace.is_playing() && run.runs() && self.pace.rest().is_none_or(|rest| rest.is_zero()) {
             let (due, until) = self.pace.tick();
@@ -231,6 +232,9 @@ impl<'a> Session<'a> {
         if let Err(error) = check(self.stage, reflectance) {
             return self.refuse(format!("{error:#}"));
         }
+        if let Some(Err(message)) = self.stage.matrix() {
+            return self.refuse(message.clone());
+        }
         if !self.stage.is_stored() {
             return self.refuse(too_large(self.stage));
         }
@@ -251,8 +255,8 @@ impl<'a> Session<'a> {
         self.remark(&Remark::Assembly { done, of })
     }
 
-    fn frames(&mut self, run: &Run<'_>) -> Option<()> {
-        for (k, lane) in run.lanes.iter().enumerate() {
+    fn frames(&mut self, run: &mut Run<'_>) -> Option<()> {
+        for (k, lane) in run.lanes.iter_mut().enumerate() {
             self.tell(Message::Bytes(lane.frame(k, self.run, run.norm)))?;
         }
         Some(())
@@ -271,54 +275,13 @@ impl<'a> Session<'a> {
     }
 }
 
-fn too_large(stage: &Stage) -> String {
+/// What is told of a scene whose F is not stored.
+pub fn too_large(stage: &Stage) -> String {
     format!(
         "the form factors of {} patches are too many to be stored: only southwell, which stores none, can be \
          watched, and lamps and materials need a new start; take larger patches",
         stage.patches.len()
     )
-}
-
-/// The solvers of now.
-struct Run<'a> {
-    setup: &'a Setup,
-    kept: &'a Kept<'a>,
-    norm: f64,
-    lanes: Vec<Lane<'a>>,
-}
-
-impl Run<'_> {
-    fn runs(&self) -> bool {
-        self.lanes.iter().any(Lane::runs)
-    }
-
-    /// The work of the solver that has done most.
-    fn work(&self) -> f64 {
-        self.lanes.iter().map(Lane::work).fold(0.0, f64::max)
-    }
-
-    /// Iterates until the work is done or the time is up, the one with the least work first; says whether anything was done.
-    fn advance(&mut self, due: f64, until: Option<Instant>) -> bool {
-        let mut worked = false;
-        while self.iterate(due) {
-            worked = true;
-            if until.is_some_and(|until| Instant::now() >= until) {
-                break;
-            }
-        }
-        worked
-    }
-
-    fn iterate(&mut self, due: f64) -> bool {
-        // Half a shot of slack: sums of many small costs do not meet the due exactly.
-        let slack = 0.5 / self.setup.source.len() as f64;
-        let ready = |lane: &&mut Lane<'_>| lane.runs() && lane.work() + lane.cost() <= due + slack;
-        let least = |a: &&mut Lane<'_>, b: &&mut Lane<'_>| a.work().total_cmp(&b.work());
-        let Some(lane) = self.lanes.iter_mut().filter(ready).min_by(least) else { return false };
-        let last = lane.work() + 2.0 * lane.cost() > due + slack;
-        lane.sweep(last);
-        true
-    }
 }
 
 #[cfg(test)]

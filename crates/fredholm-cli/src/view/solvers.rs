@@ -65,6 +65,8 @@ pub struct Lane<'a> {
     smallest: f64,
     mistaken: usize,
     target: f64,
+    /// The frame of so many iterations.
+    told: Option<(usize, Vec<u8>)>,
     /// How it stands.
     pub state: State,
 }
@@ -89,6 +91,7 @@ impl<'a> Lane<'a> {
             smallest: f64::INFINITY,
             mistaken: 0,
             target,
+            told: None,
             state: State::Running,
         }
     }
@@ -108,9 +111,9 @@ impl<'a> Lane<'a> {
         self.state == State::Running
     }
 
-    /// One iteration; `watched` finds out which patch is shot.
-    pub fn sweep(&mut self, watched: bool) {
-        self.shot = (self.shoots && watched).then(|| self.brightest());
+    /// One iteration.
+    pub fn sweep(&mut self) {
+        self.shot = self.shoots.then(|| self.brightest());
         let norm = self.relaxation.sweep();
         self.iteration += 1;
         self.smallest = self.smallest.min(norm);
@@ -149,8 +152,19 @@ impl<'a> Lane<'a> {
         self.iteration
     }
 
-    /// The frame of now; `norm` is ‖ρF‖∞.
-    pub fn frame(&self, lane: usize, run: u32, norm: f64) -> Vec<u8> {
+    /// The frame of now; `norm` is ‖ρF‖∞. In a race it may be asked for many times during a sweep, and costs as much.
+    pub fn frame(&mut self, lane: usize, run: u32, norm: f64) -> Vec<u8> {
+        match &self.told {
+            Some((iteration, frame)) if *iteration == self.iteration => frame.clone(),
+            _ => {
+                let frame = self.new_frame(lane, run, norm);
+                self.told = Some((self.iteration, frame.clone()));
+                frame
+            }
+        }
+    }
+
+    fn new_frame(&self, lane: usize, run: u32, norm: f64) -> Vec<u8> {
         let residual = self.relaxation.residual();
         let largest = max_norm(&residual);
         let head = Head {

@@ -2,6 +2,7 @@
 
 use super::kept::Kept;
 use super::lamps::{Lamp, lamps};
+use super::shared::Shared;
 use fredholm::operator::{Dense, OnTheFly};
 use fredholm::system::row_sums;
 use fredholm::value::{Rgb, Spectrum, max_norm};
@@ -58,6 +59,7 @@ pub struct Stage {
     pub how: Discretisation,
     assembled: OnceLock<Assembled>,
     entries: AtomicU64,
+    shared: Shared,
 }
 
 /// A shot into more patches than this takes longer than a frame. The matrix of so many takes 1.6 GB and, on two cores,
@@ -75,7 +77,8 @@ impl Stage {
         let visibility = Visibility::new(&polygons);
         let lamps = lamps(&scene, &patches, &visibility);
         let (assembled, entries) = (OnceLock::new(), AtomicU64::new(0));
-        Ok(Self { scene, units, polygons, patches, visibility, lamps, how, assembled, entries })
+        let shared = Shared::new(patches.len(), how.memory);
+        Ok(Self { scene, units, polygons, patches, visibility, lamps, how, assembled, entries, shared })
     }
 
     /// The form factors, computed when they are asked for.
@@ -119,7 +122,7 @@ impl Stage {
     pub fn kept<'a>(&'a self, computed: &'a FormFactors<'a>) -> Kept<'a> {
         match self.matrix() {
             Some(Ok(matrix)) => Kept::Stored(&matrix.entries),
-            _ => Kept::Computed(OnTheFly(computed)),
+            _ => Kept::Computed(OnTheFly(computed), &self.shared),
         }
     }
 
