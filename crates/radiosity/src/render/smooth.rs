@@ -122,19 +122,28 @@ mod tests {
     use crate::render::fragments::Fragment;
     use crate::scene::Surface;
 
+    fn triangle(z: f64) -> Polygon {
+        let p = |x, y| DVec3::new(x, y, z);
+        Polygon::triangle(p(0.0, 0.0), p(1.0, 0.0), p(0.0, 1.0))
+    }
+
     /// A row of pixels, of which the right half shows a second polygon.
     fn row(second_height: f64, openness: f64) -> Vec<Rgb> {
-        let p = |x, y, z| DVec3::new(x, y, z);
-        let triangle = |z| Polygon::triangle(p(0.0, 0.0, z), p(1.0, 0.0, z), p(0.0, 1.0, z));
-        let polygons = vec![triangle(0.0), triangle(second_height)];
+        row_of(&[triangle(0.0), triangle(second_height)], DVec3::Z, openness)
+    }
+
+    /// The same of these polygons, the second with another normal.
+    fn row_of(polygons: &[Polygon; 2], second_normal: DVec3, openness: f64) -> Vec<Rgb> {
+        let polygons = polygons.to_vec();
         let surface = Surface { name: "s".into(), reflectance: 0.5, emission: 0.0, polygons };
         let scene = Scene { name: "t".into(), surfaces: vec![surface], lights: Vec::new(), camera: None };
         let fragment =
             |x: usize| Fragment { shown: u32::from(x >= 8), weight: 1.0, point: x as f64 * 0.01 * DVec3::X };
         let fragments = Fragments::with_one_each(16, 1, (0..16).map(fragment).collect());
         let level = |x: usize| Rgb::from(Spectrum([if x >= 8 { 3.0 } else { (x % 2) as f64 }; 3]));
+        let normal = |x: usize| if x >= 8 { second_normal } else { DVec3::Z };
         let lit: Vec<_> = (0..16)
-            .map(|x| Lit { direct: Spectrum([0.0; 3]), indirect: level(x), openness, normal: DVec3::Z })
+            .map(|x| Lit { direct: Spectrum([0.0; 3]), indirect: level(x), openness, normal: normal(x) })
             .collect();
         smooth(&fragments, &Planes::new(&scene), &lit)
     }
@@ -149,6 +158,17 @@ mod tests {
     #[test]
     fn one_plane_is_smoothed_across_its_polygons() {
         assert!(row(0.0, f64::INFINITY)[7].0[0] > 1.0);
+    }
+
+    #[test]
+    fn a_curved_surface_is_smoothed_across_its_polygons_as_far_as_its_normals_agree() {
+        let lean = [DVec3::new(0.2, 0.0, 1.0); 3];
+        let curved = || [0.0, 0.5].map(|z| triangle(z).with_normals(&lean).unwrap());
+        let smoothed =
+            |angle: f64| row_of(&curved(), DVec3::new(angle.sin(), 0.0, angle.cos()), f64::INFINITY)[7].0[0];
+        assert!(smoothed(0.05) > 1.0, "{}", smoothed(0.05));
+        let apart = row(0.5, f64::INFINITY)[7].0[0];
+        assert!((smoothed(0.5) - apart).abs() < 1e-12, "{}", smoothed(0.5));
     }
 
     #[test]
