@@ -1,0 +1,55 @@
+//! `fredholm bake` from scene to files.
+
+#![allow(clippy::unwrap_used, reason = "in a test a panic is the message, in its helpers too")]
+
+mod run;
+
+use run::{folder, fredholm, json, names, refuse, text};
+use std::fs;
+
+#[test]
+fn a_scene_is_baked_by_its_name_and_the_table_says_what_it_is() {
+    let folder = folder("bake");
+    let output = fredholm(&folder, "bake --accuracy 10% --size 64");
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert_eq!(names(&folder), ["cornell-box.glb"]);
+    assert!(fs::read(folder.join("cornell-box.glb")).unwrap().starts_with(b"glTF"));
+    let table = text(&output.stdout);
+    for words in
+        ["baked to an accuracy of 10 %", "64 × 64 texels of", "radiance B/π, in W/(m² sr)", "cornell-box.glb"]
+    {
+        assert!(table.contains(words), "no `{words}` in: {table}");
+    }
+}
+
+#[test]
+fn all_outputs_are_written_and_the_numbers_told() {
+    let folder = folder("bake-all");
+    let output = fredholm(&folder, "bake --accuracy 10% --size 64 -o a.glb --irradiance a.exr --json -");
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert_eq!(names(&folder), ["a.exr", "a.glb"]);
+    assert!(fs::read(folder.join("a.exr")).unwrap().starts_with(&[0x76, 0x2f, 0x31, 0x01]));
+    let report = json(&output.stdout);
+    let number = |key: &str| report[key].as_f64().unwrap();
+    assert!(number("error") <= 0.1 && report["outcome"] == "met");
+    // The box is 5.5 m² of walls and blocks in metres, in 64² texels.
+    assert!((0.02..0.08).contains(&number("texel")), "{}", number("texel"));
+}
+
+#[test]
+fn what_cannot_be_baked_is_told_and_leaves_nothing() {
+    let folder = folder("bake-bad");
+    fs::write(folder.join("empty.obj"), "v 0 0 0\n").unwrap();
+    refuse(
+        &folder,
+        &[
+            ("bake --size 16", 1, &["polygons do not fit into 16 × 16 texels", "a larger atlas"]),
+            ("bake empty.obj", 1, &["empty.obj"]),
+            ("bake none.obj", 1, &["none.obj"]),
+            ("bake -o none/a.glb", 1, &["cannot write none/a.glb"]),
+            ("bake -o a.glb --irradiance a.glb", 1, &["two outputs", "a.glb"]),
+            ("bake --accuracy 0%", 2, &["a percentage such as 1%"]),
+        ],
+        |words| fredholm(&folder, words),
+    );
+}
