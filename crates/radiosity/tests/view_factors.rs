@@ -235,6 +235,33 @@ fn concentric_spheres() {
     check(&faces, outer..faces.len(), 0..outer, 1.0, &IN_SIGHT);
 }
 
+#[test]
+fn a_sphere_and_a_disc_or_the_walls_of_a_room() {
+    // 4πr² F = πR² F from the disc, so that both are .0528 for a disc twice as wide as the sphere.
+    let disc_to_sphere = |n: usize| {
+        let mut faces = sectors(n, 0.0, 1.0, 2.0, false);
+        faces.truncate(1);
+        faces.extend(sphere(n / 2, 0.5, false));
+        let to = 1..faces.len();
+        (faces, to)
+    };
+    check_round(8, disc_to_sphere, 0.052786404500, &IN_SIGHT, 4e-6);
+    // All that leaves the sphere arrives, of polyhedra too; these have an area that goes to 4πr² with 1/m².
+    let radius: f64 = 0.4;
+    let mut ratios = Vec::new();
+    for m in [4, 8] {
+        let half = DVec3::splat(0.5);
+        let mut faces = cuboid(1, true, |corner| corner * half);
+        let walls = faces.len();
+        faces.extend(sphere(m, radius, false));
+        let ratio = faces[walls..].iter().map(Polygon::area).sum::<f64>() / 6.0;
+        let end = faces.len();
+        check(&faces, 0..walls, walls..end, ratio, &IN_SIGHT);
+        ratios.push(ratio);
+    }
+    assert!((ratios[1] + (ratios[1] - ratios[0]) / 3.0 - 0.335103216383).abs() < 1e-3);
+}
+
 /// The faces of a box, n × n squares each, cut into triangles, in place.
 fn cuboid(n: usize, inwards: bool, place: impl Fn(DVec3) -> DVec3) -> Vec<Polygon> {
     let mut faces = Vec::new();
