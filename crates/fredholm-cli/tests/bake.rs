@@ -37,6 +37,21 @@ fn all_outputs_are_written_and_the_numbers_told() {
 }
 
 #[test]
+fn what_is_done_to_a_mesh_and_that_no_light_is_there_are_told() {
+    let folder = folder("bake-told");
+    fs::write(folder.join("a.mtl"), "newmtl floor\nKd .5 .5 .5\nnewmtl lamp\nKe 1 1 1\n").unwrap();
+    let floor = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 -1\nusemtl floor\nf 1//1 2//1 3//1 4//1\n";
+    // It looks away from the floor.
+    let lamp = "v 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nusemtl lamp\nf 5 6 7 8\n";
+    fs::write(folder.join("a.obj"), format!("mtllib a.mtl\n{floor}{lamp}")).unwrap();
+    let output = fredholm(&folder, "bake a.obj --size 64 --json -");
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let (report, table) = (json(&output.stdout), text(&output.stderr));
+    assert!(report["dark"] == true && report["clean_up"]["faces_drawn_flat"] == 1, "{report}");
+    assert!(table.contains("NONE reaches any surface") && table.contains("1 faces drawn flat"), "{table}");
+}
+
+#[test]
 fn what_cannot_be_baked_is_told_and_leaves_nothing() {
     let folder = folder("bake-bad");
     fs::write(folder.join("empty.obj"), "v 0 0 0\n").unwrap();

@@ -17,7 +17,7 @@ use radiosity::adaptive::{Domain, Request, solve};
 use radiosity::bake::{Atlas, Lightmap};
 use radiosity::export::{write_exr, write_glb};
 use radiosity::render::Colour;
-use radiosity::scene::{Camera, Scene, SolveOptions, Units, cornell_box, load_in};
+use radiosity::scene::{Camera, CleanUp, Scene, SolveOptions, Units, cornell_box, load_in};
 use radiosity::visibility::Visibility;
 use serde_json::json;
 use std::io::Write;
@@ -36,20 +36,22 @@ pub fn command(args: &Bake) -> Result<Ending> {
     }
     let start = Instant::now();
     let Some(file) = &args.scene else {
-        return walk(&cornell_box(), Units::Radiometric, &SolveOptions::default(), args, start);
+        let as_built = (Units::Radiometric, CleanUp::default());
+        return walk(&cornell_box(), as_built, &SolveOptions::default(), args, start);
     };
     let loaded = load_in(file, args.photometric.then_some(Units::Photometric))?;
     loaded.warnings.iter().try_for_each(warn)?;
+    let read = (loaded.units, loaded.clean_up);
     match loaded.units {
-        Units::Photometric => walk(&loaded.grey(), loaded.units, &loaded.solve, args, start),
-        Units::Radiometric => walk(&loaded.scene, loaded.units, &loaded.solve, args, start),
+        Units::Photometric => walk(&loaded.grey(), read, &loaded.solve, args, start),
+        Units::Radiometric => walk(&loaded.scene, read, &loaded.solve, args, start),
     }
 }
 
 /// From the loaded scene to the last file.
 fn walk<V: Colour>(
     scene: &Scene<V>,
-    units: Units,
+    (units, clean_up): (Units, CleanUp),
     wishes: &SolveOptions,
     args: &Bake,
     start: Instant,
@@ -110,8 +112,10 @@ fn walk<V: Colour>(
     }
     files.extend(json.as_ref().and_then(Json::file));
     seconds.total = start.elapsed().as_secs_f64();
-    let report =
+    let mut report =
         Report::new(scene, accuracy, bound, (args.size, texel), [radiance, irradiance], seconds, files);
+    report.clean_up = clean_up;
+    report.dark = lightmap.irradiance.iter().all(|h| h.magnitude() == 0.0);
     json::tell(json, &report, &report.table())?;
     Ok(if report.is_met() { Ending::Converged } else { Ending::NotConverged })
 }

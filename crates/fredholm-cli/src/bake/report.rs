@@ -1,11 +1,11 @@
 //! The numbers of a baked scene: what `--json` writes and the table shows.
 
 use crate::radiosity::memory;
-use crate::radiosity::table::last;
+use crate::radiosity::table::{last, of_mesh};
 use crate::radiosity::timing::Seconds;
 use crate::text::{self, percent};
 use radiosity::adaptive::Bound;
-use radiosity::scene::Scene;
+use radiosity::scene::{CleanUp, Scene};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -28,6 +28,10 @@ pub struct Report {
     polygons: usize,
     /// Polygons that are lit about the normals of a curved surface.
     smooth_normals: usize,
+    /// What the readers did to the mesh.
+    pub clean_up: CleanUp,
+    /// Whether no light at all reaches any surface.
+    pub dark: bool,
     radiance_unit: &'static str,
     irradiance_unit: &'static str,
     seconds: Seconds,
@@ -59,6 +63,8 @@ impl Report {
             texel,
             polygons: scene.surfaces.iter().map(|surface| surface.polygons.len()).sum(),
             smooth_normals: scene.curved_polygons(),
+            clean_up: CleanUp::default(),
+            dark: false,
             radiance_unit,
             irradiance_unit,
             seconds,
@@ -93,10 +99,8 @@ impl Report {
             ),
             ("texture", format!("radiance B/π, in {}", self.radiance_unit)),
         ];
-        if self.smooth_normals > 0 {
-            lines.push(("smooth normals", format!("of {} polygons", self.smooth_normals)));
-        }
-        lines.extend(last(self.peak_memory_bytes, false, &self.seconds, &self.files));
+        lines.extend(of_mesh(self.smooth_normals, self.clean_up));
+        lines.extend(last(self.peak_memory_bytes, self.dark, &self.seconds, &self.files));
         format!(
             "{}: baked to an accuracy of {}\n\n{}",
             self.scene,

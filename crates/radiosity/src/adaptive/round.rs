@@ -193,7 +193,7 @@ fn solved<V: Value>(
 }
 
 /// What links may be wrong by before it is known what their errors add up to.
-pub(super) fn first_tolerance(accuracy: f64, scale: f64) -> f64 {
+fn first_tolerance(accuracy: f64, scale: f64) -> f64 {
     0.1 * LINKS * accuracy * scale
 }
 
