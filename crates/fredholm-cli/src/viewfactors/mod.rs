@@ -76,7 +76,8 @@ pub fn command(args: &Arguments) -> Result<Ending> {
         files.push(timed(&mut stages.write, || write(output, told, &surroundings, &asked))?);
     }
     files.extend(outputs.json.as_ref().and_then(Json::file));
-    let (sums, told_sums) = (rows.factors.row_sums(), told.row_sums());
+    let sums = rows.factors.row_sums();
+    let told_sums = totals.as_ref().map_or_else(|| sums.clone(), ViewFactors::row_sums);
     let missing =
         told_sums.iter().zip(&rows.emittances).map(|(sum, emittance)| (sum.value - emittance).abs());
     let checked = || sums.iter().zip(&rows.whole).filter(|(_, whole)| **whole || !enclosure.is_closed());

@@ -9,7 +9,7 @@ use super::outline::Outline;
 use super::pairs::screens;
 use crate::polygon::Polygon;
 use crate::visibility::blockers::Blockers;
-use crate::visibility::screens::Screens;
+use crate::visibility::screens::{Found, Screens};
 use crate::visibility::solid::{Plane, Solid};
 use crate::visibility::{End, Visibility};
 use glam::DVec3;
@@ -101,11 +101,11 @@ impl<'a> Outlooks<'a> {
         // Digits that are rounded put some corners of a convex body before its faces, but it hides nothing from any of them.
         let own =
             self.blockers.body_of_face[face].filter(|&body| self.blockers.solids[body as usize].is_some());
-        let (mut known, mut found) = (HashMap::new(), Vec::new());
+        let (mut known, mut found) = (HashMap::new(), Found::new());
         for (other, target) in self.faces.iter().enumerate() {
             if other != face && may_see(outer, target) {
                 self.screens.between([&self.ends[face], &self.ends[other]], &mut found);
-                found.retain(|&id| own.is_none() || self.blockers.body[id as usize] != own);
+                found.retain(|id| own.is_none() || self.blockers.body[*id as usize] != own);
                 let keys: Vec<Key> = found.iter().flat_map(|&id| self.names(id, other)).collect();
                 if keys.len() > MANY {
                     outlook.seen.push((other as u32, Hiders::Many));

@@ -8,7 +8,7 @@ use super::sight::{Look, Sight, View};
 use crate::polygon::Polygon;
 use crate::view_factors::Exchange;
 use crate::visibility::blockers::Blockers;
-use crate::visibility::screens::Screens;
+use crate::visibility::screens::{Found, Screens};
 use crate::visibility::{Count, End};
 
 /// The exchanges between the faces of a scene.
@@ -67,7 +67,7 @@ impl<'a> Pairs<'a> {
         let Some(facing) = facing else { return Exchange::default() };
         let areas = [i, j].map(|k| self.faces[k].area());
         let (outer, target) = if areas[0] <= areas[1] { (i, j) } else { (j, i) };
-        let mut found = Vec::new();
+        let mut found = Found::new();
         let sight = self.sight(outer, target, &mut found);
         let whole = || self.unoccluded.facing(self.faces, i, j, facing);
         let (kind, exchange) = match sight {
@@ -80,7 +80,7 @@ impl<'a> Pairs<'a> {
     }
 
     /// What of a face is seen from another.
-    fn sight(&self, outer: usize, target: usize, found: &mut Vec<u32>) -> Sight {
+    fn sight(&self, outer: usize, target: usize, found: &mut Found) -> Sight {
         let ends = [outer, target].map(|k| &self.ends[k]);
         self.screens.between(ends, found);
         let look = |found: &[u32]| {

@@ -10,6 +10,7 @@ use crate::polygon::Polygon;
 use crate::visibility::blockers::Blockers;
 use crate::visibility::solid::{Plane, Solid};
 use glam::DVec3;
+use smallvec::SmallVec;
 use std::borrow::Cow;
 
 /// What is seen of a target.
@@ -34,6 +35,9 @@ const MOST_CUTS: usize = 4;
 /// Heights below this part of all lengths are rounding.
 const ROUNDING: f64 = 1e-12;
 
+/// What was found between two polygons, with the convex body that stands for it if it may be taken as a whole; mostly one.
+type Bodies<'a> = SmallVec<[(u32, Option<&'a Solid>); 4]>;
+
 /// Two polygons, and what may be between them.
 pub(super) struct Look<'a> {
     pub blockers: &'a Blockers,
@@ -49,6 +53,7 @@ impl Look<'_> {
     pub fn sight(&self) -> Sight {
         let (a, b) = (self.outer, self.target);
         let reach = a.centroid().distance(b.centroid()) + a.diameter() + b.diameter();
+        let bodies: Bodies<'_> = self.found.iter().map(|&id| (id, self.solid(id, reach))).collect();
         let (mut views, mut hidden) = (Vec::new(), true);
         // Mostly the whole is in front, and need not be copied.
         let whole = a.vertices().iter().all(|v| b.height_of(*v) >= 0.0);
@@ -59,8 +64,8 @@ impl Look<'_> {
             if target.is_empty() {
                 continue;
             }
-            self.parts(Piece::new(part.vertices()), reach, |eyes| {
-                let hiders = self.hiders(&Scene::new(eyes.corners(), &target, reach));
+            from_one_side(Piece::new(part.vertices()), &bodies, reach, |eyes| {
+                let hiders = self.hiders(&bodies, &Scene::new(eyes.corners(), &target, reach));
                 hidden &= matches!(hiders.as_slice(), [hider] if hider.hides_all());
                 if !hiders.is_empty() {
                     views.push(View { eyes, target, hiders, reach });
@@ -72,32 +77,6 @@ impl Look<'_> {
             () if hidden => Sight::Hidden,
             () => Sight::Partly(views),
         }
-    }
-
-    /// The parts of a piece of the outer polygon from each of which bodies have one outline.
-    fn parts(&self, piece: Piece, reach: f64, mut visit: impl FnMut(Piece)) {
-        let eyes = piece.corners();
-        let across = |plane: &&Plane| is_before(eyes, plane, reach).is_none();
-        let mut cuts: Vec<&Plane> = Vec::new();
-        for solid in self.found.iter().filter_map(|&id| self.solid(id, reach)) {
-            let own = solid.planes.iter().filter(across);
-            if own.clone().count() <= MOST_CUTS && cuts.len() <= MOST_CUTS {
-                cuts.extend(own);
-            }
-        }
-        if cuts.is_empty() {
-            return visit(piece);
-        }
-        let mut parts = vec![piece];
-        for plane in cuts {
-            for k in 0..parts.len() {
-                if let Some([above, below]) = parts[k].divided(|x| plane.height_of(x)) {
-                    parts[k] = above;
-                    parts.push(below);
-                }
-            }
-        }
-        parts.into_iter().for_each(&mut visit);
     }
 
     /// The convex body that a polygon stands for, if it may be taken as a whole: it is in front of the target's plane, and
@@ -118,11 +97,11 @@ impl Look<'_> {
     }
 
     /// What hides something of the target; one that hides all is alone.
-    fn hiders(&self, scene: &Scene<'_>) -> Vec<Hider> {
+    fn hiders(&self, bodies: &Bodies<'_>, scene: &Scene<'_>) -> Vec<Hider> {
         let mut hiders = Vec::new();
         let mut polygons = Vec::new();
-        for &id in self.found.iter().filter(|&&id| !self.is_own(id)) {
-            let hiding = match self.solid(id, scene.reach) {
+        for &(id, solid) in bodies.iter().filter(|(id, _)| !self.is_own(*id)) {
+            let hiding = match solid {
                 Some(solid) => Hider::of_solid(solid, scene),
                 None => Err(TooMuch),
             };
@@ -170,6 +149,32 @@ impl Look<'_> {
             body: body.filter(|_| is_whole),
         })
     }
+}
+
+/// The parts of a piece of the outer polygon from each of which bodies have one outline.
+fn from_one_side(piece: Piece, bodies: &Bodies<'_>, reach: f64, mut visit: impl FnMut(Piece)) {
+    let eyes = piece.corners();
+    let across = |plane: &&Plane| is_before(eyes, plane, reach).is_none();
+    let mut cuts: Vec<&Plane> = Vec::new();
+    for solid in bodies.iter().filter_map(|(_, solid)| *solid) {
+        let own = solid.planes.iter().filter(across);
+        if own.clone().count() <= MOST_CUTS && cuts.len() <= MOST_CUTS {
+            cuts.extend(own);
+        }
+    }
+    if cuts.is_empty() {
+        return visit(piece);
+    }
+    let mut parts = vec![piece];
+    for plane in cuts {
+        for k in 0..parts.len() {
+            if let Some([above, below]) = parts[k].divided(|x| plane.height_of(x)) {
+                parts[k] = above;
+                parts.push(below);
+            }
+        }
+    }
+    parts.into_iter().for_each(&mut visit);
 }
 
 /// Whether all points are before a plane, or in it or behind; none where there are some on either side.

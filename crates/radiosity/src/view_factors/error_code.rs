@@ -28,9 +28,14 @@ pub(super) fn encode(error: f64) -> u8 {
     if error == 0.0 {
         return 0;
     }
-    // An error that is not smaller than the threshold, NaN included, goes on to the next.
-    let code = ERRORS.partition_point(|known| !matches!(error.partial_cmp(known), Some(o) if o.is_le()));
-    code.min(255) as u8
+    let errors = &*ERRORS;
+    // From the code of the power of two that is not above it; what is no number is above all.
+    let octave = (error.to_bits() >> 52) as i64 - 1023;
+    let mut code = (ONE as i64 + STEPS as i64 * octave).clamp(1, 255) as usize;
+    while code < 255 && !matches!(error.partial_cmp(&errors[code]), Some(o) if o.is_le()) {
+        code += 1;
+    }
+    code as u8
 }
 
 /// The error that a code stands for.

@@ -18,7 +18,7 @@ pub use packed::Storage;
 
 use enforce::{Multipliers, corrected};
 use error_code::{decode, encode};
-use packed::{Values, entries, fill, index};
+use packed::{Values, entries, fill, index, row_start};
 
 /// What two faces exchange, ∫∫ cosθ cosθ′ V / (π r²) over both, in m².
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -129,25 +129,31 @@ impl ViewFactors {
 
     /// All rows of F, one after another: much faster than each by [`row`](Self::row).
     pub fn rows(&self) -> impl Iterator<Item = Vec<f64>> + '_ {
-        self.bands(|i, j| self.factor(i, j))
+        self.bands(|entry| entry.value)
     }
 
     /// All rows of their errors.
     pub fn rows_of_errors(&self) -> impl Iterator<Item = Vec<f64>> + '_ {
-        self.bands(|i, j| self.error(i, j))
+        self.bands(|entry| entry.error)
     }
 
     /// Rows, some at a time: what lies before the diagonal stands in the triangle by columns, of which a band takes a
     /// piece where a row would take an entry.
-    fn bands<'a>(&'a self, entry: impl Fn(usize, usize) -> f64 + 'a) -> impl Iterator<Item = Vec<f64>> + 'a {
+    fn bands<'a>(&'a self, part: impl Fn(Exchange) -> f64 + 'a) -> impl Iterator<Item = Vec<f64>> + 'a {
         let n = self.len();
         (0..n).step_by(BAND).flat_map(move |first| {
             let numbers = first..(first + BAND).min(n);
             let mut rows = vec![Vec::with_capacity(n); numbers.len()];
-            for j in 0..n {
+            for j in 0..first {
+                let start = row_start(n, j);
                 for (row, i) in rows.iter_mut().zip(numbers.clone()) {
-                    row.push(entry(i, j));
+                    row.push(part(self.entry(start + i - j, i, j)) / self.areas[i]);
                 }
+            }
+            for (row, i) in rows.iter_mut().zip(numbers) {
+                let near = (first..i).map(|j| (index(n, i, j), j));
+                let places = near.chain((row_start(n, i)..).zip(i..n));
+                row.extend(places.map(|(place, j)| part(self.entry(place, i, j)) / self.areas[i]));
             }
             rows
         })
@@ -209,9 +215,12 @@ impl ViewFactors {
     /// Each exchange once, i ≤ j, row by row.
     fn for_each(&self, mut visit: impl FnMut(usize, usize, Exchange)) {
         let n = self.len();
-        let pairs = (0..n).flat_map(|i| (i..n).map(move |j| (i, j)));
-        for (k, (i, j)) in pairs.enumerate() {
-            visit(i, j, self.entry(k, i, j));
+        let mut place = 0;
+        for i in 0..n {
+            for j in i..n {
+                visit(i, j, self.entry(place, i, j));
+                place += 1;
+            }
         }
     }
 

@@ -98,18 +98,24 @@ impl Blockers {
         and: impl Fn(&Plane, f64) -> bool,
     ) -> bool {
         let [least, most] = self.bodies[body as usize];
-        let apart = |side: &Plane| {
+        let around = polygon.vertices().iter();
+        let (low, high) = around
+            .fold((DVec3::MAX, DVec3::MIN), |(low, high): (DVec3, DVec3), v| (low.min(*v), high.max(*v)));
+        // Of a side of the box the heights are known from the polygon's own.
+        let beyond_box = DVec3::AXES.iter().enumerate().any(|(k, axis)| {
+            let (above, below) = (low[k] - most[k], least[k] - high[k]);
+            let plane = |normal: DVec3, corner: DVec3| Plane { normal, offset: normal.dot(corner) };
+            (above >= 0.0 && and(&plane(*axis, most), high[k] - most[k]))
+                || (below >= 0.0 && and(&plane(-*axis, least), least[k] - low[k]))
+        });
+        let beyond = |side: &Plane| {
             let heights = polygon.vertices().iter().map(|v| side.height_of(*v));
             let (low, high) = heights.fold((f64::MAX, f64::MIN), |(low, high), h| (low.min(h), high.max(h)));
             low >= 0.0 && and(side, high)
         };
-        let sides = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| {
-            let plane = |normal: DVec3, corner: DVec3| Plane { normal, offset: normal.dot(corner) };
-            [plane(axis, most), plane(-axis, least)]
-        });
         self.body_of_face[face] == Some(body)
-            || sides.into_iter().any(|side| apart(&side))
-            || self.solids[body as usize].as_ref().is_some_and(|solid| solid.planes.iter().any(apart))
+            || beyond_box
+            || self.solids[body as usize].as_ref().is_some_and(|solid| solid.planes.iter().any(beyond))
     }
 
     /// The polygons that one stands for: those of its body, if that is a [`Solid`].

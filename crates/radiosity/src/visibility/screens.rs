@@ -8,6 +8,7 @@ use super::shaft::{ROUNDING, Shaft};
 use super::walls::walls;
 use crate::polygon::Polygon;
 use glam::DVec3;
+use smallvec::SmallVec;
 use std::cell::OnceCell;
 use std::ops::ControlFlow;
 
@@ -50,29 +51,32 @@ impl Screens {
 
     /// What may be in the way of some segment from one to the other, into `found`: polygons that are not proved to miss all
     /// of them, and bodies that are near.
-    pub fn between(&self, ends: [&End; 2], found: &mut Vec<u32>) {
+    pub fn between(&self, ends: [&End; 2], found: &mut Found) {
         found.clear();
         self.tree.walk(&mut Between { screens: self, ends, shaft: OnceCell::new(), found });
     }
 
     /// Takes from what was found the bodies that are proved to miss all segments; whether there were any.
-    pub fn narrow(&self, [a, b]: [&End; 2], found: &mut Vec<u32>) -> bool {
+    pub fn narrow(&self, [a, b]: [&End; 2], found: &mut Found) -> bool {
         let before = found.len();
         let shaft = Shaft::new(&self.facets, &a.facet, &b.facet);
-        found.retain(|&k| {
-            let vertices = &self.bodies[k as usize];
+        found.retain(|k| {
+            let vertices = &self.bodies[*k as usize];
             vertices.is_empty() || !shaft.excludes(vertices)
         });
         found.len() < before
     }
 }
 
+/// What may be between two polygons: mostly nothing, or a body or two.
+pub(crate) type Found = SmallVec<[u32; 8]>;
+
 struct Between<'a> {
     screens: &'a Screens,
     ends: [&'a End; 2],
     /// Made once it is needed: the balls and boxes of the ends tell most pairs in full sight.
     shaft: OnceCell<Shaft<'a>>,
-    found: &'a mut Vec<u32>,
+    found: &'a mut Found,
 }
 
 impl Between<'_> {
