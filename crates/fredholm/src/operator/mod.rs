@@ -5,6 +5,7 @@
 //! a solver on an operator that cannot give what it asks for does not compile.
 
 mod dense;
+pub mod hierarchical;
 mod line;
 mod on_the_fly;
 
