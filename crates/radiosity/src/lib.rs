@@ -50,6 +50,7 @@ pub mod closure;
 pub mod elements;
 pub mod export;
 pub mod form_factor;
+pub mod hierarchical;
 pub mod kernel;
 pub mod lights;
 pub mod patches;

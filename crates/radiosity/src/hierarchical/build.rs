@@ -1,0 +1,156 @@
+//! From patches to links: a tree, then cuts, then the factors of each link.
+
+use super::block::Block;
+use super::clusters::Clusters;
+use super::cut::Cuts;
+use super::factor::Factors;
+use super::{Hierarchical, Statistics};
+use crate::patches::Patches;
+use crate::visibility::Visibility;
+use fredholm::operator::hierarchical::Cluster;
+use fredholm::value::Value;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// What is known of the light, or guessed, by patch: how bright it is and what arrives, in W/m², of the brightest channel.
+#[derive(Clone, Debug)]
+pub struct Light {
+    pub(super) brightness: Vec<f64>,
+    pub(super) arriving: Vec<f64>,
+}
+
+/// Patches on which less than this part of the mean arrives are as well known as those on which it does: what counts is the error
+/// of all patches together.
+const DIM: f64 = 0.25;
+
+impl Light {
+    /// As if what is emitted were spread evenly: the ambient term of progressive radiosity (paper, §3.5.2).
+    pub fn ambient<V: Value>(patches: &Patches<V>, source: &[V]) -> Self {
+        let (areas, rho) = (&patches.areas, &patches.reflectance);
+        let total: f64 = areas.iter().sum();
+        let mean = |values: &[V]| areas.iter().zip(values).map(|(a, v)| a * v.magnitude()).sum::<f64>() / total;
+        let ambient = mean(source) / (1.0 - mean(rho).min(MOST_REFLECTED));
+        let brightness = source.iter().zip(rho).map(|(f, rho)| f.magnitude() + rho.magnitude() * ambient);
+        Self { brightness: brightness.collect(), arriving: vec![ambient; source.len()] }
+    }
+
+    /// From a solution: radiosity and irradiance.
+    pub fn of<V: Value>(patches: &Patches<V>, radiosity: &[V], irradiance: &[V]) -> Self {
+        let areas = &patches.areas;
+        let total: f64 = areas.iter().sum();
+        let mean = areas.iter().zip(irradiance).map(|(a, h)| a * h.magnitude()).sum::<f64>() / total;
+        Self {
+            brightness: radiosity.iter().map(V::magnitude).collect(),
+            arriving: irradiance.iter().map(|h| h.magnitude().max(DIM * mean)).collect(),
+        }
+    }
+}
+
+/// A scene that reflects more than that in the mean has this ambient term.
+const MOST_REFLECTED: f64 = 0.95;
+
+/// Patches that share a cut.
+const TOGETHER: usize = 16;
+
+/// Cuts from which it is told how many links there will be.
+const LOOKS: usize = 256;
+
+/// Patches in clusters, before there are links.
+pub struct Plan<'a, V> {
+    pub(super) patches: &'a Patches<V>,
+    pub(super) visibility: &'a Visibility,
+    pub(super) clusters: Arc<Clusters>,
+    receivers: Vec<Cluster>,
+}
+
+impl<'a, V: Value> Plan<'a, V> {
+    /// For these patches, which `visibility` is of.
+    pub fn new(patches: &'a Patches<V>, visibility: &'a Visibility) -> Self {
+        let clusters = Clusters::new(patches);
+        let receivers = clusters.up_to(TOGETHER);
+        Self { patches, visibility, clusters: Arc::new(clusters), receivers }
+    }
+
+    /// About how many bytes the links will take, where one may bring a `part` of what arrives.
+    pub fn bytes(&self, light: &Light, part: f64) -> u64 {
+        let step = self.receivers.len().div_ceil(LOOKS).max(1);
+        let looked: Vec<Cluster> = self.receivers.iter().copied().step_by(step).collect();
+        let means = self.means(light);
+        let cuts = self.cuts(&means, part);
+        let bytes = |receiver: &Cluster| {
+            let mut found = Vec::new();
+            cuts.of(*receiver, &mut found);
+            (found.len() * (size_of::<Cluster>() + 4 * self.clusters.tree.range(*receiver).len())) as u64
+        };
+        let looks: u64 = looked.par_iter().map(bytes).sum();
+        looks * self.receivers.len() as u64 / looked.len().max(1) as u64 + self.tree_bytes()
+    }
+
+    fn tree_bytes(&self) -> u64 {
+        let cluster = size_of::<super::clusters::Whole>() + 14 * size_of::<f64>();
+        (self.clusters.wholes.len() * cluster + self.patches.len() * 32) as u64
+    }
+
+    /// Brightness and what arrives, by cluster.
+    pub(super) fn means(&self, light: &Light) -> [Vec<f64>; 2] {
+        [&light.brightness, &light.arriving].map(|values| self.clusters.means(values))
+    }
+
+    pub(super) fn cuts<'b>(&'b self, [brightness, arriving]: &'b [Vec<f64>; 2], part: f64) -> Cuts<'b> {
+        Cuts { clusters: &self.clusters, brightness, arriving, part }
+    }
+
+    pub(super) fn factors(&self, seed: u64) -> Factors<'_> {
+        Factors { clusters: &self.clusters, polygons: &self.patches.polygons, visibility: self.visibility, seed }
+    }
+
+    /// All links. `progress` is told of how many patches more they are there, from any thread.
+    pub fn assemble(&self, light: &Light, part: f64, seed: u64, progress: impl Fn(usize) + Sync) -> Hierarchical {
+        let means = self.means(light);
+        let (cuts, factors) = (self.cuts(&means, part), self.factors(seed));
+        let build = |found: &mut Vec<Cluster>, receiver: &Cluster| {
+            cuts.of(*receiver, found);
+            let members = self.clusters.tree.members(*receiver);
+            let most = part * cuts.arriving[receiver.index()];
+            let mut rays = 0;
+            let columns = (0_u64..).zip(found.iter()).map(|(link, sender)| {
+                let needed = most / cuts.brightness[sender.index()];
+                let factor = |patch: &usize| {
+                    let (factor, cast) = factors.factor(*patch, *sender, needed, link);
+                    rays += u64::from(cast);
+                    factor as f32
+                };
+                (*sender, members.iter().map(factor).collect())
+            });
+            let block = Block::new(*receiver, members.len(), columns);
+            progress(members.len());
+            (block, rays)
+        };
+        let built: Vec<(Block, u64)> = self.receivers.par_iter().map_init(Vec::new, build).collect();
+        self.gathered(built)
+    }
+
+    fn gathered(&self, built: Vec<(Block, u64)>) -> Hierarchical {
+        let rays = built.iter().map(|(_, rays)| rays).sum();
+        let blocks: Vec<Block> = built.into_iter().map(|(block, _)| block).collect();
+        let tree = &self.clusters.tree;
+        let mut order_of = vec![0; tree.order().len()];
+        tree.order().iter().zip(0..).for_each(|(patch, place)| order_of[*patch] = place);
+        let statistics = Statistics {
+            patches: self.patches.len(),
+            clusters: tree.len(),
+            receivers: self.receivers.len(),
+            links: blocks.iter().map(Block::links).sum(),
+            rays,
+            bytes: blocks.iter().map(Block::bytes).sum::<u64>() + self.tree_bytes(),
+        };
+        Hierarchical {
+            places: Hierarchical::places(&blocks, |receiver| tree.members(receiver).to_vec(), self.patches.len()),
+            clusters: Arc::clone(&self.clusters),
+            blocks,
+            areas: self.patches.areas.clone(),
+            order_of,
+            statistics,
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! Clusters of patches: near each other, and facing alike. Of each what is needed to bound and to compute what it sends.
+
+use crate::patches::Patches;
+use crate::polygon::Polygon;
+use fredholm::operator::hierarchical::{Bounds, Cluster, ClusterTree};
+use fredholm::value::Value;
+use glam::DVec3;
+
+/// How far apart two normals are that are opposite, as a part of the scene's extent: patches of two walls of a room that meet
+/// are of two clusters from about an eighth of its size on.
+const TURN: f64 = 0.25;
+
+/// A cluster as a whole.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Whole {
+    /// The centre of mass.
+    pub centre: DVec3,
+    /// ∫ n dA, in m².
+    pub front: DVec3,
+    /// In m².
+    pub area: f64,
+    /// The middle of the box around it, and half of its sides.
+    pub middle: DVec3,
+    pub half: DVec3,
+    /// The direction of `front`, and how far normals are from it: cosine and sine of the largest angle.
+    pub axis: DVec3,
+    pub turn: (f64, f64),
+}
+
+impl Whole {
+    fn of_patch(polygon: &Polygon) -> Self {
+        let corners = polygon.vertices().iter();
+        let (low, high) =
+            corners.fold((DVec3::MAX, DVec3::MIN), |(low, high): (DVec3, DVec3), v| (low.min(*v), high.max(*v)));
+        Self {
+            centre: polygon.centroid(),
+            front: polygon.normal() * polygon.area(),
+            area: polygon.area(),
+            middle: 0.5 * (low + high),
+            half: 0.5 * (high - low),
+            axis: polygon.normal(),
+            turn: (1.0, 0.0),
+        }
+    }
+
+    fn union(a: &Self, b: &Self) -> Self {
+        let area = a.area + b.area;
+        let front = a.front + b.front;
+        let low = (a.middle - a.half).min(b.middle - b.half);
+        let high = (a.middle + a.half).max(b.middle + b.half);
+        let axis = front.normalize_or_zero();
+        Self {
+            centre: (a.centre * a.area + b.centre * b.area) / area,
+            front,
+            area,
+            middle: 0.5 * (low + high),
+            half: 0.5 * (high - low),
+            axis,
+            turn: wider(a.turned(axis), b.turned(axis)),
+        }
+    }
+
+    /// The largest angle of a normal to another axis, as cosine and sine; past a right angle it is half a turn.
+    fn turned(&self, axis: DVec3) -> (f64, f64) {
+        let cosine = self.axis.dot(axis).clamp(-1.0, 1.0);
+        let sine = (1.0 - cosine * cosine).sqrt();
+        let (c, s) = self.turn;
+        let sum = (cosine * c - sine * s, sine * c + cosine * s);
+        if cosine <= 0.0 || sum.0 <= 0.0 { (-1.0, 0.0) } else { sum }
+    }
+
+    /// How far it reaches along a direction from its middle.
+    fn reach(&self, direction: DVec3) -> f64 {
+        direction.abs().dot(self.half)
+    }
+
+    /// Half of the diagonal of its box.
+    pub fn radius(&self) -> f64 {
+        self.half.length()
+    }
+
+    /// How far apart the boxes are.
+    pub fn distance(&self, other: &Self) -> f64 {
+        ((self.middle - other.middle).abs() - self.half - other.half).max(DVec3::ZERO).length()
+    }
+
+    /// An upper bound of the cosine between a normal here and the direction to a point of another cluster, `near` and `far` being
+    /// the least and the greatest distance.
+    fn cosine_towards(&self, other: &Self, (near, far): (f64, f64)) -> f64 {
+        let height =
+            (other.middle - self.middle).dot(self.axis) + other.reach(self.axis) + self.reach(self.axis);
+        let (cosine, sine) = self.turn;
+        if cosine < 0.0 {
+            return 1.0;
+        }
+        // (a·ω) cos σ + √(1 − (a·ω)²) sin σ at most, for a direction ω and normals within σ of the axis a.
+        let along = height / if height > 0.0 { near.max(height) } else { far };
+        (along * cosine + sine).min(1.0)
+    }
+
+    /// An upper bound of the form factor from any point of this cluster to another; 0 where they turn their backs.
+    pub fn most(&self, other: &Self) -> f64 {
+        let near = self.distance(other);
+        let far = (self.middle - other.middle).length() + self.radius() + other.radius();
+        let reach = (near, far);
+        let (here, there) = (self.cosine_towards(other, reach), other.cosine_towards(self, reach));
+        if here <= FLAT || there <= FLAT {
+            return 0.0;
+        }
+        let bound = other.area * here * there / (std::f64::consts::PI * near * near);
+        if bound < 1.0 { bound } else { 1.0 }
+    }
+}
+
+/// Cosines below that are of patches in one plane, but for rounding.
+const FLAT: f64 = 1e-9;
+
+fn wider(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
+    if a.0 <= b.0 { a } else { b }
+}
+
+/// The tree of clusters, down to single patches.
+#[derive(Debug)]
+pub(super) struct Clusters {
+    pub tree: ClusterTree<6>,
+    pub wholes: Vec<Whole>,
+}
+
+impl Clusters {
+    /// Of patches that have areas and finite corners.
+    pub fn new<V: Value>(patches: &Patches<V>) -> Self {
+        let polygons = &patches.polygons;
+        let all = polygons.iter().map(Whole::of_patch).reduce(|a, b| Whole::union(&a, &b));
+        let turn = all.map_or(0.0, |all| TURN * 2.0 * all.half.max_element());
+        let boxes: Vec<Bounds<6>> = polygons
+            .iter()
+            .map(|polygon| {
+                let (c, n) = (polygon.centroid(), 0.5 * turn * polygon.normal());
+                Bounds::of_point([c.x, c.y, c.z, n.x, n.y, n.z])
+            })
+            .collect();
+        // Scenes are checked on loading: what is not finite does not come so far.
+        let tree = ClusterTree::of_boxes(&boxes, 1)
+            .unwrap_or_else(|error| unreachable!("patches have finite corners: {error}"));
+        let mut wholes: Vec<Option<Whole>> = vec![None; tree.len()];
+        for cluster in tree.bottom_up() {
+            let whole = match tree.children(cluster) {
+                None => Whole::of_patch(&polygons[tree.members(cluster)[0]]),
+                Some(parts) => {
+                    let [a, b] = parts.map(|part| wholes[part.index()].as_ref());
+                    a.zip(b).map_or_else(|| unreachable!("children come first"), |(a, b)| Whole::union(a, b))
+                }
+            };
+            wholes[cluster.index()] = Some(whole);
+        }
+        Self { tree, wholes: wholes.into_iter().flatten().collect() }
+    }
+
+    pub fn whole(&self, cluster: Cluster) -> &Whole {
+        &self.wholes[cluster.index()]
+    }
+
+    /// The patch that a cluster is, if it is one.
+    pub fn patch(&self, cluster: Cluster) -> Option<usize> {
+        self.tree.children(cluster).is_none().then(|| self.tree.members(cluster)[0])
+    }
+
+    /// The mean over each cluster of what is given by patch, weighted by area.
+    pub fn means<V: Value>(&self, values: &[V]) -> Vec<V> {
+        let mut means = vec![V::splat(0.0); self.wholes.len()];
+        for cluster in self.tree.bottom_up() {
+            means[cluster.index()] = match self.tree.children(cluster) {
+                None => values[self.tree.members(cluster)[0]],
+                Some([a, b]) => {
+                    let part = self.whole(a).area / self.whole(cluster).area;
+                    means[a.index()] * part + means[b.index()] * (1.0 - part)
+                }
+            };
+        }
+        means
+    }
+
+    /// The largest clusters of at most so many patches.
+    pub fn up_to(&self, most: usize) -> Vec<Cluster> {
+        let mut found = Vec::new();
+        let mut stack: Vec<Cluster> = self.tree.root().into_iter().collect();
+        while let Some(cluster) = stack.pop() {
+            match self.tree.children(cluster) {
+                Some([a, b]) if self.tree.range(cluster).len() > most => stack.extend([b, a]),
+                _ => found.push(cluster),
+            }
+        }
+        found
+    }
+}

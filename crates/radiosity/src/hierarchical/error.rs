@@ -1,0 +1,111 @@
+//! ‖u − B‖ from the residual f + ρ F u − u, F being asked anew where it is looked at: with an eighth of what a link may bring, and
+//! other rays.
+
+use super::build::{Light, Plan};
+use fredholm::value::Value;
+use rayon::prelude::*;
+
+/// How far a solution is from the light itself, in the L² norm relative to the solution's.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Judged {
+    /// In all.
+    pub error: f64,
+    /// What the patches leave out: light is not the same all over a patch.
+    pub patches: f64,
+    /// What links get wrong: light that is not the same all over a cluster, form factors, visibility; and what iteration left.
+    pub links: f64,
+}
+
+/// Patches that are looked at.
+const LOOKS: usize = 512;
+
+/// How many times finer the cuts are that judge.
+const FINER: f64 = 8.0;
+
+/// The cosine of an angle between patches from which on light varies from one to the other as it does within them.
+const ALIKE: f64 = 0.99;
+
+/// Another seed than any that links are made with.
+const SEED: u64 = 0x5eed_0f0e_1707;
+
+impl<V: Value> Plan<'_, V> {
+    /// Judges u, the radiosity of each patch, which was made with links that may bring a `part`.
+    pub fn judge(&self, source: &[V], u: &[V], light: &Light, part: f64) -> Judged {
+        let (areas, rho) = (&self.patches.areas, &self.patches.reflectance);
+        let total: f64 = areas.iter().sum();
+        let square = |value: V| value.channels().iter().map(|c| c * c).sum::<f64>();
+        let norm = (areas.iter().zip(u).map(|(area, u)| area * square(*u)).sum::<f64>() / total).sqrt();
+        if norm == 0.0 {
+            return Judged::default();
+        }
+        let residuals = self.residuals(source, u, light, part / FINER);
+        let count = residuals.len().max(1) as f64;
+        let mean_square = residuals.iter().map(|r| square(*r)).sum::<f64>() / count;
+        let mean = residuals.iter().fold(V::splat(0.0), |sum, r| sum + *r) * count.recip();
+        // Noise is lost in the next bounce, in which hundreds of links add up; what all have in common is not, and is as large as
+        // it is seen to be, or could be without being seen.
+        let common = square(mean).max(mean_square / count).sqrt();
+        let reflected = areas.iter().zip(rho).map(|(a, rho)| a * rho.magnitude()).sum::<f64>() / total;
+        let carried = common * reflected / (1.0 - reflected).max(f64::EPSILON);
+        let links = (mean_square + carried * carried).sqrt() / norm;
+        let patches = self.variation(u).sqrt() / norm;
+        Judged { error: (links * links + patches * patches).sqrt(), patches, links }
+    }
+
+    /// f + ρ F u − u on patches that are spread evenly over the area.
+    fn residuals(&self, source: &[V], u: &[V], light: &Light, part: f64) -> Vec<V> {
+        let means = self.means(light);
+        let radiosity = self.clusters.means(u);
+        let (cuts, factors) = (self.cuts(&means, part), self.factors(SEED));
+        let looked = self.spread();
+        let residual = |found: &mut Vec<_>, leaf: &_| {
+            cuts.of(*leaf, found);
+            let patch = self.clusters.tree.members(*leaf)[0];
+            let most = part * cuts.arriving[leaf.index()];
+            let arriving = (0..).zip(found.iter()).fold(V::splat(0.0), |sum, (link, sender)| {
+                let needed = most / cuts.brightness[sender.index()];
+                let (factor, _) = factors.factor(patch, *sender, needed, link);
+                sum + radiosity[sender.index()] * factor
+            });
+            source[patch] + self.patches.reflectance[patch] * arriving - u[patch]
+        };
+        looked.par_iter().map_init(Vec::new, residual).collect()
+    }
+
+    /// Leaves of the tree, one for each equal part of the area.
+    fn spread(&self) -> Vec<fredholm::operator::hierarchical::Cluster> {
+        let areas = &self.patches.areas;
+        let total: f64 = areas.iter().sum();
+        let step = total / LOOKS as f64;
+        let (mut passed, mut next, mut found) = (0.0, 0.5 * step, Vec::new());
+        for leaf in self.clusters.tree.leaves() {
+            passed += areas[self.clusters.tree.members(leaf)[0]];
+            while passed > next {
+                found.push(leaf);
+                next += step;
+            }
+        }
+        found
+    }
+
+    /// The mean square of what light varies by within patches: between two that are neighbours in a plane it differs by as much as
+    /// across one, and a twelfth of the square of that is the variance along one of two axes.
+    fn variation(&self, u: &[V]) -> f64 {
+        let tree = &self.clusters.tree;
+        let areas = &self.patches.areas;
+        let (mut sum, mut seen) = (0.0, 0.0);
+        for cluster in tree.top_down() {
+            let Some([a, b]) = tree.children(cluster) else { continue };
+            let (Some(a), Some(b)) = (self.clusters.patch(a), self.clusters.patch(b)) else { continue };
+            let [n, m] = [a, b].map(|patch| self.patches.polygons[patch].normal());
+            if self.patches.surface[a] != self.patches.surface[b] || n.dot(m) < ALIKE {
+                continue;
+            }
+            let step = u[a] - u[b];
+            let area = areas[a] + areas[b];
+            sum += area * step.channels().iter().map(|c| c * c).sum::<f64>();
+            seen += area;
+        }
+        if seen > 0.0 { sum / seen / 6.0 } else { 0.0 }
+    }
+}

@@ -1,0 +1,124 @@
+//! F_iC = 1/A_i ∫_{P_i} ∫_C K(x, y) dy dx, from a patch to a cluster: its size by formula, what of it arrives by rays.
+
+use super::clusters::Clusters;
+use crate::form_factor::sampled::{mix, unit};
+use crate::form_factor::{contour, lambert};
+use crate::polygon::Polygon;
+use crate::visibility::Visibility;
+use fredholm::operator::hierarchical::Cluster;
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// Where form factors to clusters come from.
+pub(super) struct Factors<'a> {
+    pub clusters: &'a Clusters,
+    pub polygons: &'a [Polygon],
+    pub visibility: &'a Visibility,
+    /// Other rays with another one.
+    pub seed: u64,
+}
+
+/// A patch this many times the size of both away is a point.
+const POINT: f64 = 4.0;
+
+/// A patch nearer than their size is integrated over its outline.
+const NEAR: f64 = 0.6;
+
+/// Most rays between two patches.
+const MOST_RAYS: u32 = 16;
+
+impl Factors<'_> {
+    /// The form factor, with the rays cast for it. `needed` is the factor that is worth one ray: a single patch that is larger
+    /// has more.
+    pub fn factor(&self, patch: usize, cluster: Cluster, needed: f64, link: u64) -> (f64, u32) {
+        let whole = match self.clusters.patch(cluster) {
+            Some(other) if other == patch => 0.0,
+            Some(other) => self.to_patch(patch, other, needed),
+            None => self.to_cluster(&self.polygons[patch], cluster),
+        };
+        if whole <= 0.0 || !self.visibility.hides_anything() {
+            return (whole.max(0.0), 0);
+        }
+        let rays = ((whole / needed).ceil() as u32).clamp(1, MOST_RAYS);
+        let clear = (0..rays).filter(|ray| self.is_clear(patch, cluster, link << 5 | u64::from(*ray))).count();
+        (whole * clear as f64 / f64::from(rays), rays)
+    }
+
+    /// From the middle of a patch to four parts of a cluster, each as one element of area.
+    fn to_cluster(&self, polygon: &Polygon, cluster: Cluster) -> f64 {
+        let (x, n) = (polygon.centroid(), polygon.normal());
+        let element = |cluster: Cluster| {
+            let whole = self.clusters.whole(cluster);
+            let between = whole.centre - x;
+            let square = between.length_squared();
+            let (leaves, arrives) = (between.dot(n), -between.dot(whole.front));
+            if leaves <= 0.0 || arrives <= 0.0 { 0.0 } else { leaves * arrives / (PI * square * square) }
+        };
+        let parts = |cluster: Cluster| self.clusters.tree.children(cluster);
+        let half = |cluster: Cluster| match parts(cluster) {
+            Some([a, b]) => element(a) + element(b),
+            None => element(cluster),
+        };
+        parts(cluster).map_or_else(|| element(cluster), |[a, b]| half(a) + half(b))
+    }
+
+    fn to_patch(&self, patch: usize, other: usize, needed: f64) -> f64 {
+        let (here, there) = (&self.polygons[patch], &self.polygons[other]);
+        let between = there.centroid() - here.centroid();
+        let size = (here.area().sqrt()).max(there.area().sqrt());
+        let distance = between.length();
+        if distance > POINT * size {
+            let square = distance * distance;
+            let (leaves, arrives) = (between.dot(here.normal()), -between.dot(there.normal()));
+            let facing = leaves > 0.0 && arrives > 0.0;
+            return if facing { leaves * arrives * there.area() / (PI * square * square) } else { 0.0 };
+        }
+        // Two planes that meet at an angle β see each other by (1 − cos β)/2 at most.
+        let most = 0.5 * (1.0 - here.normal().dot(there.normal()));
+        let in_front = |a: &Polygon, b: &Polygon| a.vertices().iter().all(|v| b.height_of(*v) >= 0.0);
+        if distance < NEAR * (here.diameter() + there.diameter())
+            && most > needed
+            && in_front(here, there)
+            && in_front(there, here)
+        {
+            let tolerance = 0.01 * needed * here.area();
+            return contour::exchange(here.vertices(), there.vertices(), tolerance).value / here.area();
+        }
+        let mean: f64 = QUARTERS
+            .iter()
+            .map(|[s, t]| lambert::point_to_polygon(here.point(*s, *t), here.normal(), there))
+            .sum();
+        mean / QUARTERS.len() as f64
+    }
+
+    /// Whether a point of the patch sees one of the cluster.
+    fn is_clear(&self, patch: usize, cluster: Cluster, number: u64) -> bool {
+        let mut random = Random::new(self.seed, patch as u64, number);
+        let (mut at, mut u) = (cluster, random.next());
+        while let Some([a, b]) = self.clusters.tree.children(at) {
+            let part = self.clusters.whole(a).area / self.clusters.whole(at).area;
+            (at, u) = if u < part { (a, u / part) } else { (b, (u - part) / (1.0 - part)) };
+        }
+        let there = &self.polygons[self.clusters.tree.members(at)[0]];
+        let [s, t, v, w] = std::array::from_fn(|_| random.next());
+        let (x, y): (DVec3, DVec3) = (self.polygons[patch].point(s, t), there.point(v, w));
+        self.visibility.unoccluded(x, y)
+    }
+}
+
+const QUARTERS: [[f64; 2]; 4] = [[0.25, 0.25], [0.25, 0.75], [0.75, 0.25], [0.75, 0.75]];
+
+/// Numbers that are hashes of what they are for: they do not depend on who asks first.
+struct Random(u64);
+
+impl Random {
+    fn new(seed: u64, patch: u64, number: u64) -> Self {
+        Self(mix(mix(mix(seed) ^ patch) ^ number))
+    }
+
+    /// In [0, 1).
+    fn next(&mut self) -> f64 {
+        self.0 = mix(self.0);
+        unit(self.0)
+    }
+}

@@ -1,0 +1,84 @@
+//! F ≈ F̃ for very many patches: what reaches a patch comes from *clusters* of others, as large as the error allows.
+//!
+//! (F̃ u)_i = Σ_C F_iC ū_C, over a cut through a tree of clusters C, with ū_C the mean of u over C by area. Patches that are near
+//! each other and face alike share a cut. A cluster is cut in two where its link could bring more than a part of all that arrives,
+//! so there are as many links as the error asks for, whatever the number of patches: O(n) in all. F_iC is found by formula, and
+//! what of it arrives by rays, one or more to a link, each from another point to another: what they miss is noise with a mean of 0.
+//! (Hanrahan, Salzman & Aupperle 1991; Smits, Arvo & Greenberg 1994; Walter et al. 2005.)
+
+mod block;
+mod build;
+mod clusters;
+mod cut;
+mod error;
+mod factor;
+mod lines;
+
+pub use build::{Light, Plan};
+pub use error::Judged;
+
+use block::Block;
+use clusters::Clusters;
+use fredholm::operator::Matrix;
+use fredholm::value::Value;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// F̃, as links from patches to clusters.
+#[derive(Debug)]
+pub struct Hierarchical {
+    clusters: Arc<Clusters>,
+    blocks: Vec<Block>,
+    /// Of each patch, in m².
+    areas: Vec<f64>,
+    /// The block that each patch receives in, and its place there.
+    places: Vec<(u32, u32)>,
+    /// The place of each patch in the order of the tree.
+    order_of: Vec<u32>,
+    statistics: Statistics,
+}
+
+/// How large it is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Statistics {
+    /// Patches.
+    pub patches: usize,
+    /// Clusters, single patches among them.
+    pub clusters: usize,
+    /// Clusters of patches that share a cut.
+    pub receivers: usize,
+    /// Links from a patch to a cluster that it sees something of.
+    pub links: u64,
+    /// Rays cast for them.
+    pub rays: u64,
+    /// Bytes of the links, and of the tree.
+    pub bytes: u64,
+}
+
+impl Hierarchical {
+    /// How large it is.
+    pub fn statistics(&self) -> &Statistics {
+        &self.statistics
+    }
+
+    /// `out` = F̃ u.
+    fn gather<V: Value>(&self, u: &[V], out: &mut [V]) {
+        let means = self.clusters.means(u);
+        let gathered: Vec<Vec<V>> = self.blocks.par_iter().map(|block| block.gather(&means)).collect();
+        for (block, values) in self.blocks.iter().zip(gathered) {
+            let members = self.clusters.tree.members(block.receiver());
+            members.iter().zip(values).for_each(|(patch, value)| out[*patch] = value);
+        }
+    }
+}
+
+impl Matrix for Hierarchical {
+    fn dim(&self) -> usize {
+        self.areas.len()
+    }
+
+    /// A planar patch does not see itself.
+    fn diagonal(&self, _: usize) -> f64 {
+        0.0
+    }
+}
