@@ -52,7 +52,7 @@ fn row(scene: &Scene<Rgb>, n: usize, part: f64) {
     let plan = Plan::new(&patches, &visibility);
     let tree = start.elapsed().as_secs_f64();
     let light = Light::ambient(&patches, &source);
-    let first = plan.assemble(&light, 4.0 * part, 1, |_| ());
+    let first = plan.sketch(&light, part, 1);
     let t1 = start.elapsed().as_secs_f64();
     let [u, h] = solve(&first, &patches, &source);
     let light = Light::of(&patches, &u, &h);
@@ -64,10 +64,34 @@ fn row(scene: &Scene<Rgb>, n: usize, part: f64) {
     let light = Light::of(&patches, &u, &h);
     let judged = plan.judge(&source, &u, &light, part);
     let told = start.elapsed().as_secs_f64();
-    let truth = if patches.len() <= 30_000 {
-        let finer = plan.assemble(&light, part / 16.0, 77, |_| ());
+    let truth = if patches.len() <= 8_000 {
+        let finer = plan.assemble(&light, 0.003, 77, |_| ());
         let [v, _] = solve(&finer, &patches, &source);
         let norm = |a: &dyn Fn(usize) -> f64| (0..v.len()).map(|i| patches.areas[i] * a(i)).sum::<f64>().sqrt();
+        if std::env::var("DUMP").is_ok() {
+            let mut worst: Vec<(f64, usize)> = (0..v.len()).map(|i| (patches.areas[i] * (u[i] - v[i]).magnitude().powi(2), i)).collect();
+            worst.sort_by(|a, b| b.0.total_cmp(&a.0));
+            for (name, op) in [("operator", &operator), ("finer", &finer)] {
+                let ones = vec![1.0; v.len()];
+                let mut sums = vec![0.0; v.len()];
+                fredholm::operator::Operator::apply(op, &ones, &mut sums);
+                for surface in 0..scene.surfaces.len() {
+                    let of = || (0..v.len()).filter(|i| patches.surface[*i] as usize == surface);
+                    let mean = of().map(|i| patches.areas[i] * sums[i]).sum::<f64>() / of().map(|i| patches.areas[i]).sum::<f64>();
+                    println!("{name} {}: mean row sum {mean:.4}", scene.surfaces[surface].name);
+                }
+                println!("{name} ceiling {:.4} links {}", (1000..1600).filter(|i| patches.polygons[*i].normal().z < -0.9).map(|i| sums[i]).sum::<f64>() / (1000..1600).filter(|i| patches.polygons[*i].normal().z < -0.9).count() as f64, op.statistics().links);
+            }
+            let total: f64 = worst.iter().map(|w| w.0).sum();
+            let mut sum = 0.0;
+            for (k, (w, i)) in worst.iter().enumerate() {
+                sum += w;
+                if k < 25 || k.is_power_of_two() {
+                    let p = &patches.polygons[*i];
+                    println!("{k:>6} {:.3} {i} at {:.2} n {:.1} u {:.4} v {:.4}", sum / total, p.centroid(), p.normal(), u[*i].magnitude(), v[*i].magnitude());
+                }
+            }
+        }
         let square = |x: Rgb| x.channels().iter().map(|c| c * c).sum::<f64>();
         norm(&|i| square(u[i] - v[i])) / norm(&|i| square(v[i]))
     } else {

@@ -30,6 +30,11 @@ impl Block {
         self.receiver
     }
 
+    /// How many patches it has factors of: all of the cluster's, or one that stands for them.
+    pub fn patches(&self) -> usize {
+        self.patches
+    }
+
     /// Each sender, with the factors of all patches.
     pub fn columns(&self) -> impl Iterator<Item = (Cluster, &[f32])> {
         self.senders.iter().copied().zip(self.factors.chunks_exact(self.patches.max(1)))

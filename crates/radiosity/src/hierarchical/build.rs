@@ -3,7 +3,7 @@
 use super::block::Block;
 use super::clusters::Clusters;
 use super::cut::Cuts;
-use super::factor::Factors;
+use super::factor::{Factors, Link};
 use super::{Hierarchical, Statistics};
 use crate::patches::Patches;
 use crate::visibility::Visibility;
@@ -91,13 +91,17 @@ impl<'a, V: Value> Plan<'a, V> {
         (self.clusters.wholes.len() * cluster + self.patches.len() * 32) as u64
     }
 
-    /// Brightness and what arrives, by cluster.
-    pub(super) fn means(&self, light: &Light) -> [Vec<f64>; 2] {
-        [&light.brightness, &light.arriving].map(|values| self.clusters.means(values))
+    /// Brightness, its standard deviation, and what arrives, by cluster.
+    pub(super) fn means(&self, light: &Light) -> [Vec<f64>; 3] {
+        let squares: Vec<f64> = light.brightness.iter().map(|b| b * b).collect();
+        let [brightness, squares, arriving] =
+            [&light.brightness, &squares, &light.arriving].map(|values| self.clusters.means(values));
+        let deviation = brightness.iter().zip(squares).map(|(mean, square)| (square - mean * mean).max(0.0).sqrt());
+        [deviation.collect(), brightness, arriving]
     }
 
-    pub(super) fn cuts<'b>(&'b self, [brightness, arriving]: &'b [Vec<f64>; 2], part: f64) -> Cuts<'b> {
-        Cuts { clusters: &self.clusters, brightness, arriving, part }
+    pub(super) fn cuts<'b>(&'b self, [deviation, brightness, arriving]: &'b [Vec<f64>; 3], part: f64) -> Cuts<'b> {
+        Cuts { clusters: &self.clusters, visibility: self.visibility, brightness, deviation, arriving, part }
     }
 
     pub(super) fn factors(&self, seed: u64) -> Factors<'_> {
@@ -106,24 +110,42 @@ impl<'a, V: Value> Plan<'a, V> {
 
     /// All links. `progress` is told of how many patches more they are there, from any thread.
     pub fn assemble(&self, light: &Light, part: f64, seed: u64, progress: impl Fn(usize) + Sync) -> Hierarchical {
+        self.links(light, part, (seed, TOGETHER), progress)
+    }
+
+    /// The links of one patch of each cluster, which stands for the others: enough to tell how bright these are.
+    pub fn sketch(&self, light: &Light, part: f64, seed: u64) -> Hierarchical {
+        self.links(light, part, (seed, 1), |_| ())
+    }
+
+    fn links(
+        &self,
+        light: &Light,
+        part: f64,
+        (seed, most): (u64, usize),
+        progress: impl Fn(usize) + Sync,
+    ) -> Hierarchical {
         let means = self.means(light);
         let (cuts, factors) = (self.cuts(&means, part), self.factors(seed));
         let build = |found: &mut Vec<Cluster>, receiver: &Cluster| {
             cuts.of(*receiver, found);
-            let members = self.clusters.tree.members(*receiver);
-            let most = part * cuts.arriving[receiver.index()];
+            let all = self.clusters.tree.members(*receiver);
+            let members = &all[..all.len().min(most)];
+            let hull = self.clusters.hull(*receiver, &self.patches.polygons);
+            let worth = part * cuts.arriving[receiver.index()];
             let mut rays = 0;
-            let columns = (0_u64..).zip(found.iter()).map(|(link, sender)| {
-                let needed = most / cuts.brightness[sender.index()];
+            let columns = (0_u64..).zip(found.iter()).map(|(number, sender)| {
+                let clear = factors.clear(hull.as_deref(), *sender);
+                let link = Link { sender: *sender, number, clear, worth: worth / cuts.brightness[sender.index()] };
                 let factor = |patch: &usize| {
-                    let (factor, cast) = factors.factor(*patch, *sender, needed, link);
+                    let (factor, cast) = factors.factor(*patch, &link);
                     rays += u64::from(cast);
                     factor as f32
                 };
                 (*sender, members.iter().map(factor).collect())
             });
             let block = Block::new(*receiver, members.len(), columns);
-            progress(members.len());
+            progress(all.len());
             (block, rays)
         };
         let built: Vec<(Block, u64)> = self.receivers.par_iter().map_init(Vec::new, build).collect();

@@ -5,6 +5,7 @@ use crate::polygon::Polygon;
 use fredholm::operator::hierarchical::{Bounds, Cluster, ClusterTree};
 use fredholm::value::Value;
 use glam::DVec3;
+use std::borrow::Cow;
 
 /// How far apart two normals are that are opposite, as a part of the scene's extent: patches of two walls of a room that meet
 /// are of two clusters from about an eighth of its size on.
@@ -77,6 +78,28 @@ impl Whole {
     /// Half of the diagonal of its box.
     pub fn radius(&self) -> f64 {
         self.half.length()
+    }
+
+    /// The corners of its box.
+    pub fn corners(&self) -> [DVec3; 8] {
+        std::array::from_fn(|k| {
+            let sign = |bit: usize| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
+            self.middle + self.half * DVec3::new(sign(0), sign(1), sign(2))
+        })
+    }
+
+    /// A rectangle around patches of one plane that has an axis of space for normal; `None` for others.
+    pub fn rectangle(&self) -> Option<Polygon> {
+        let n = self.axis;
+        if self.turn.0 < 1.0 - FLAT || self.reach(n) > FLAT * self.radius() {
+            return None;
+        }
+        // Along an axis of space where there is one in the plane: then it is no larger than it need be.
+        let u = n.cross(if n.x.abs() < 0.5 { DVec3::X } else { DVec3::Y }).normalize();
+        let v = n.cross(u);
+        let (a, b) = (u * self.reach(u), v * self.reach(v));
+        let corner = |s: f64, t: f64| self.middle + s * a + t * b;
+        Some(Polygon::quadrilateral(corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)))
     }
 
     /// How far apart the boxes are.
@@ -163,6 +186,14 @@ impl Clusters {
     /// The patch that a cluster is, if it is one.
     pub fn patch(&self, cluster: Cluster) -> Option<usize> {
         self.tree.children(cluster).is_none().then(|| self.tree.members(cluster)[0])
+    }
+
+    /// A polygon that all of its patches are in: the patch itself, or a rectangle around those of one plane.
+    pub fn hull<'a>(&self, cluster: Cluster, polygons: &'a [Polygon]) -> Option<Cow<'a, Polygon>> {
+        match self.patch(cluster) {
+            Some(patch) => Some(Cow::Borrowed(&polygons[patch])),
+            None => self.whole(cluster).rectangle().map(Cow::Owned),
+        }
     }
 
     /// The mean over each cluster of what is given by patch, weighted by area.

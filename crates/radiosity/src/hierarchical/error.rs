@@ -2,6 +2,7 @@
 //! other rays.
 
 use super::build::{Light, Plan};
+use super::factor::Link;
 use fredholm::value::Value;
 use rayon::prelude::*;
 
@@ -40,7 +41,11 @@ impl<V: Value> Plan<'_, V> {
         }
         let residuals = self.residuals(source, u, light, part / FINER);
         let count = residuals.len().max(1) as f64;
-        let mean_square = residuals.iter().map(|r| square(*r)).sum::<f64>() / count;
+        let squares = || residuals.iter().map(|r| square(*r));
+        let mean_square = squares().sum::<f64>() / count;
+        // A few patches may have most of the error, and there are more of these than are seen, or fewer: two standard errors more.
+        let spread = squares().map(|s| (s - mean_square).powi(2)).sum::<f64>() / count;
+        let mean_square = mean_square + 2.0 * (spread / count).sqrt();
         let mean = residuals.iter().fold(V::splat(0.0), |sum, r| sum + *r) * count.recip();
         // Noise is lost in the next bounce, in which hundreds of links add up; what all have in common is not, and is as large as
         // it is seen to be, or could be without being seen.
@@ -62,9 +67,10 @@ impl<V: Value> Plan<'_, V> {
             cuts.of(*leaf, found);
             let patch = self.clusters.tree.members(*leaf)[0];
             let most = part * cuts.arriving[leaf.index()];
-            let arriving = (0..).zip(found.iter()).fold(V::splat(0.0), |sum, (link, sender)| {
-                let needed = most / cuts.brightness[sender.index()];
-                let (factor, _) = factors.factor(patch, *sender, needed, link);
+            let arriving = (0_u64..).zip(found.iter()).fold(V::splat(0.0), |sum, (link, sender)| {
+                let worth = most / cuts.brightness[sender.index()];
+                let link = Link { sender: *sender, number: link, clear: false, worth };
+                let (factor, _) = factors.factor(patch, &link);
                 sum + radiosity[sender.index()] * factor
             });
             source[patch] + self.patches.reflectance[patch] * arriving - u[patch]

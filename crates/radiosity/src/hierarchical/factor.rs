@@ -18,6 +18,17 @@ pub(super) struct Factors<'a> {
     pub seed: u64,
 }
 
+/// Where the patches of a receiver gather from.
+pub(super) struct Link {
+    pub sender: Cluster,
+    /// Its number among the receiver's links.
+    pub number: u64,
+    /// Whether nothing is between.
+    pub clear: bool,
+    /// The form factor that is worth one ray: a single patch that sends more has more.
+    pub worth: f64,
+}
+
 /// A patch this many times the size of both away is a point.
 const POINT: f64 = 4.0;
 
@@ -28,19 +39,25 @@ const NEAR: f64 = 0.6;
 const MOST_RAYS: u32 = 16;
 
 impl Factors<'_> {
-    /// The form factor, with the rays cast for it. `needed` is the factor that is worth one ray: a single patch that is larger
-    /// has more.
-    pub fn factor(&self, patch: usize, cluster: Cluster, needed: f64, link: u64) -> (f64, u32) {
-        let whole = match self.clusters.patch(cluster) {
+    /// Whether it is proved that nothing is between a polygon and a cluster.
+    pub fn clear(&self, from: Option<&Polygon>, to: Cluster) -> bool {
+        let hull = || self.clusters.hull(to, self.polygons);
+        !self.visibility.hides_anything()
+            || from.zip(hull()).is_some_and(|(a, b)| self.visibility.certainly_clear(a, &b))
+    }
+
+    /// The form factor, with the rays cast for it.
+    pub fn factor(&self, patch: usize, link: &Link) -> (f64, u32) {
+        let whole = match self.clusters.patch(link.sender) {
             Some(other) if other == patch => 0.0,
-            Some(other) => self.to_patch(patch, other, needed),
-            None => self.to_cluster(&self.polygons[patch], cluster),
+            Some(other) => self.to_patch(patch, other, link.worth),
+            None => self.to_cluster(&self.polygons[patch], link.sender),
         };
-        if whole <= 0.0 || !self.visibility.hides_anything() {
+        if whole <= 0.0 || link.clear {
             return (whole.max(0.0), 0);
         }
-        let rays = ((whole / needed).ceil() as u32).clamp(1, MOST_RAYS);
-        let clear = (0..rays).filter(|ray| self.is_clear(patch, cluster, link << 5 | u64::from(*ray))).count();
+        let rays = ((whole / link.worth).ceil() as u32).clamp(1, MOST_RAYS);
+        let clear = (0..rays).filter(|ray| self.is_clear(patch, link, *ray)).count();
         (whole * clear as f64 / f64::from(rays), rays)
     }
 
@@ -91,10 +108,10 @@ impl Factors<'_> {
         mean / QUARTERS.len() as f64
     }
 
-    /// Whether a point of the patch sees one of the cluster.
-    fn is_clear(&self, patch: usize, cluster: Cluster, number: u64) -> bool {
-        let mut random = Random::new(self.seed, patch as u64, number);
-        let (mut at, mut u) = (cluster, random.next());
+    /// Whether a point of the patch sees one of the sender.
+    fn is_clear(&self, patch: usize, link: &Link, ray: u32) -> bool {
+        let mut random = Random::new(self.seed, patch as u64, link.number << 5 | u64::from(ray));
+        let (mut at, mut u) = (link.sender, random.next());
         while let Some([a, b]) = self.clusters.tree.children(at) {
             let part = self.clusters.whole(a).area / self.clusters.whole(at).area;
             (at, u) = if u < part { (a, u / part) } else { (b, (u - part) / (1.0 - part)) };

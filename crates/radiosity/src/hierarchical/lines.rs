@@ -16,7 +16,7 @@ impl Hierarchical {
         let mut places = vec![(0, 0); patches];
         for (number, block) in (0..).zip(blocks) {
             for (place, patch) in (0..).zip(members(block.receiver())) {
-                places[patch] = (number, place);
+                places[patch] = (number, place.min(block.patches() as u32 - 1));
             }
         }
         places

@@ -67,7 +67,8 @@ impl Hierarchical {
         let gathered: Vec<Vec<V>> = self.blocks.par_iter().map(|block| block.gather(&means)).collect();
         for (block, values) in self.blocks.iter().zip(gathered) {
             let members = self.clusters.tree.members(block.receiver());
-            members.iter().zip(values).for_each(|(patch, value)| out[*patch] = value);
+            // One patch stands for all of a sketch.
+            members.iter().zip(values.iter().cycle()).for_each(|(patch, value)| out[*patch] = *value);
         }
     }
 }

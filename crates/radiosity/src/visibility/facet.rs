@@ -94,9 +94,9 @@ impl Facet {
         (apart && self.encloses(s, (s - t) * above.signum())).then(|| above / (above - below))
     }
 
-    /// Whether it cuts every segment between a vertex of a and one of b.
-    pub(super) fn separates(&self, a: &Self, b: &Self) -> bool {
-        a.vertices().iter().all(|&s| b.vertices().iter().all(|&t| self.cut(s, t).is_some()))
+    /// Whether it cuts every segment between a point of a and one of b.
+    pub(super) fn separates(&self, a: &[DVec3], b: &[DVec3]) -> bool {
+        a.iter().all(|&s| b.iter().all(|&t| self.cut(s, t).is_some()))
     }
 
     /// Whether the line through s along `up` passes all edges on the inner side.

@@ -143,6 +143,12 @@ impl Visibility {
     /// α_i β_j (g_i + h_j) ≥ 0. The x_ij are in the polygon, it is convex, so their mean is in it.
     pub fn certainly_blocks(&self, id: u32, a: &Polygon, b: &Polygon) -> bool {
         let unit = |p: &Polygon| Facet::new(p, &self.frame);
+        self.facets[id as usize].separates(unit(a).vertices(), unit(b).vertices())
+    }
+
+    /// The same of all segments between the convex hulls of two clouds of points, such as the corners of boxes.
+    pub fn certainly_blocks_hulls<const N: usize>(&self, id: u32, a: &[DVec3; N], b: &[DVec3; N]) -> bool {
+        let unit = |points: &[DVec3; N]| points.map(|point| self.frame.point(point));
         self.facets[id as usize].separates(&unit(a), &unit(b))
     }
 }
