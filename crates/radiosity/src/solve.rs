@@ -1,5 +1,9 @@
 //! Room 6: B = f + ρ ⊙ (F B) with f = E + ρ H of point lights, gathered or shot. A page: every algorithm here is the general theory's.
 
+mod hierarchical;
+
+pub use hierarchical::Links;
+
 use crate::closure::Closure;
 use crate::elements::{Elements, Space};
 use crate::form_factor::{FormFactors, point_to_point};
@@ -48,6 +52,17 @@ pub enum Solver {
     Direct,
 }
 
+/// How F is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Storage {
+    /// All n² entries, in `f32`.
+    Dense,
+    /// None: each row or column is computed when it is asked for, and forgotten.
+    OnTheFly,
+    /// Links to clusters of patches, O(n) of them: [`crate::hierarchical`]. For Galerkin's method with constants on patches.
+    Hierarchical,
+}
+
 /// What to solve, and how well.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
@@ -55,6 +70,8 @@ pub struct Options {
     pub method: Method,
     /// The solver.
     pub solver: Solver,
+    /// How F is kept.
+    pub storage: Storage,
     /// The standard error that a row sum Σ_j F_ij may have from sampled visibility.
     pub accuracy: f64,
     /// The residual to reach, ‖r‖∞ relative to ‖f‖∞.
@@ -73,6 +90,7 @@ impl Default for Options {
         Self {
             method: Method::Galerkin,
             solver: Solver::GaussSeidel,
+            storage: Storage::Dense,
             accuracy: 1e-3,
             tolerance: 1e-6,
             iterations: 1000,
@@ -100,6 +118,24 @@ pub enum SolveError {
         /// Bytes that it may take.
         available: u64,
     },
+    /// The links would not fit.
+    #[error(
+        "links between {patches} patches take about {} MB, and {} MB are free: take larger patches, or allow a larger --factor-accuracy",
+        needed >> 20, available >> 20
+    )]
+    Links {
+        /// The number of patches.
+        patches: usize,
+        /// Bytes of the links, about.
+        needed: u64,
+        /// Bytes that they may take.
+        available: u64,
+    },
+    /// Links are between patches with constant light.
+    #[error(
+        "the hierarchical operator is for the galerkin method with constants on patches: take the dense one, or on-the-fly"
+    )]
+    NoLinks,
     /// A form factor is not finite.
     #[error("{0}; do two patches lie in one place? The galerkin and collocation methods do not sample there")]
     FormFactor(#[from] NotFinite),
@@ -120,6 +156,9 @@ pub enum SolveError {
 
 /// Told how the work goes on.
 pub trait Observer<V: Value>: Sync {
+    /// About so many bytes will be taken for form factors, of which there are none yet.
+    fn planned(&self, _bytes: u64) {}
+
     /// `entries` more form factors are computed; called from any thread.
     fn assembled(&self, entries: usize);
 
@@ -167,6 +206,8 @@ pub struct Solution<V> {
     pub assembly_seconds: f64,
     /// Seconds to solve.
     pub solve_seconds: f64,
+    /// Of F as links to clusters.
+    pub links: Option<Links>,
 }
 
 /// Solves the radiosity equation on the patches.
@@ -182,6 +223,9 @@ pub fn solve<V: Value>(
     let source = &source(&patches.emission, reflectance, lit);
     let run = Run { patches, visibility, options, source, lit, reflectance, weights: areas, space: None };
     match options.method {
+        _ if options.storage == Storage::Hierarchical => {
+            if options.method == Method::Galerkin { run.link(observer) } else { Err(SolveError::NoLinks) }
+        }
         Method::Nystrom => {
             let coupling = point_to_point(patches, visibility);
             run.keep(&coupling, &|| coupling.kernel().rays.total(), observer)
@@ -209,6 +253,9 @@ pub fn solve_elements<V: Value>(
     options: &Options,
     observer: &mut dyn Observer<V>,
 ) -> Result<Solution<V>, SolveError> {
+    if options.storage == Storage::Hierarchical {
+        return Err(SolveError::NoLinks);
+    }
     let reflectance = &space.spread(&patches.reflectance);
     let lit = &space.interpolate(|node| lights::irradiance(&patches.lights, visibility, node));
     let source = &source(&space.spread(&patches.emission), reflectance, lit);
@@ -253,10 +300,10 @@ impl<V: Value> Run<'_, V> {
         rays: &dyn Fn() -> u64,
         observer: &mut dyn Observer<V>,
     ) -> Result<Solution<V>, SolveError> {
-        let solution = if self.options.solver == Solver::Southwell {
-            self.shoot(&OnTheFly(coupling), observer)
-        } else {
-            self.gather(coupling, observer)
+        let solution = match (self.options.storage, self.options.solver) {
+            (Storage::OnTheFly, Solver::Southwell) => self.shoot(&OnTheFly(coupling), observer),
+            (Storage::OnTheFly, _) => self.compute(&OnTheFly(coupling), observer),
+            _ => self.gather(coupling, observer),
         };
         solution.map(|solution| Solution { rays: rays(), ..solution })
     }
@@ -294,15 +341,7 @@ impl<V: Value> Run<'_, V> {
         let assembly_seconds = start.elapsed().as_secs_f64();
         let start = Instant::now();
         let system = System::new(self.source, self.reflectance, &matrix)?;
-        let mut relaxation: Box<dyn Relaxation<V> + '_> = match self.options.solver {
-            Solver::Jacobi => Box::new(Jacobi::new(system)),
-            Solver::Successive => Box::new(SuccessiveApproximation::new(system)),
-            Solver::Gmres => Box::new(Gmres::new(system)),
-            Solver::Direct => Box::new(Direct::new(system)),
-            Solver::GaussSeidel => Box::new(GaussSeidel::new(system)),
-            // Not asked for here, and right on a stored matrix too.
-            Solver::Southwell => Box::new(Southwell::new(system, self.weights)),
-        };
+        let mut relaxation = self.relaxation(system);
         let report = self.relax(&mut *relaxation, observer)?;
         let mut irradiance = vec![V::splat(0.0); n];
         matrix.apply(&relaxation.solution(), &mut irradiance);
@@ -314,6 +353,39 @@ impl<V: Value> Run<'_, V> {
             solve_seconds: start.elapsed().as_secs_f64(),
             ..solution
         })
+    }
+
+    /// Solves with rows of F that are computed at each iteration and not stored.
+    fn compute<F: Rows + Columns>(
+        &self,
+        operator: &F,
+        observer: &mut dyn Observer<V>,
+    ) -> Result<Solution<V>, SolveError> {
+        let start = Instant::now();
+        let n = operator.dim();
+        let system = System::new(self.source, self.reflectance, operator)?;
+        let mut relaxation = self.relaxation(system);
+        let report = self.relax(&mut *relaxation, observer)?;
+        let mut irradiance = vec![V::splat(0.0); n];
+        operator.apply(&relaxation.solution(), &mut irradiance);
+        // Every iteration, the last residual, the irradiance and the row sums.
+        let computed = ((report.residuals.len() + 3) * n * n) as u64;
+        let solution = self.judge(system, &irradiance, report, &spread(n, n));
+        Ok(Solution { form_factors: computed, solve_seconds: start.elapsed().as_secs_f64(), ..solution })
+    }
+
+    fn relaxation<'b, F: Rows + Columns>(&'b self, system: System<'b, V, F>) -> Box<dyn Relaxation<V> + 'b> {
+        match self.options.solver {
+            Solver::Jacobi => Box::new(Jacobi::new(system)),
+            Solver::Successive => Box::new(SuccessiveApproximation::new(system)),
+            Solver::Gmres => Box::new(Gmres::new(system)),
+            Solver::Direct => Box::new(Direct::new(system)),
+            Solver::GaussSeidel => Box::new(GaussSeidel::new(system)),
+            Solver::Southwell => {
+                let southwell = Southwell::new(system, self.weights);
+                Box::new(if self.options.ambient { southwell.with_ambient() } else { southwell })
+            }
+        }
     }
 
     /// Whether the matrix fits, and for LU the factors of as many channels as are worked on at once.
@@ -384,6 +456,7 @@ impl<V: Value> Run<'_, V> {
             rays: 0,
             assembly_seconds: 0.0,
             solve_seconds: 0.0,
+            links: None,
         }
     }
 

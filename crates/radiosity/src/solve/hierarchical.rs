@@ -1,0 +1,86 @@
+//! F as links to clusters: a sketch tells how bright patches are, then there are the links that this brightness needs.
+
+use super::{Observer, Run, SAMPLED_ROWS, Solution, SolveError, spread};
+use crate::hierarchical::{Judged, Light, Plan, Statistics};
+use fredholm::krylov::Gmres;
+use fredholm::operator::Operator;
+use fredholm::relax::{Relaxation, Stop, relax};
+use fredholm::system::System;
+use fredholm::value::{Value, max_norm};
+use std::time::Instant;
+
+/// What is told of links beside a [`Solution`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Links {
+    /// How many there are, of what.
+    pub statistics: Statistics,
+    /// The bytes that were expected before there were any.
+    pub planned_bytes: u64,
+    /// How far the solution is from the light itself.
+    pub judged: Judged,
+}
+
+/// The part of what arrives that one link may bring, for a standard error of 1 of a row sum: a row has so many links that these
+/// err by some hundredth of one. At 10⁻³ the light errs by .2 to .6 % (BENCHMARKS.md).
+const PART: f64 = 100.0;
+
+/// Links bring no more than that, however large the error may be.
+const MOST: f64 = 0.3;
+
+/// The residual of a sketch's solution, and the sweeps for it: brightness need not be known better.
+const SKETCH: (f64, usize) = (1e-3, 20);
+
+/// Seeds of the rays.
+const SEEDS: [u64; 2] = [1, 2];
+
+impl<V: Value> Run<'_, V> {
+    /// Solves with links.
+    pub(super) fn link(&self, observer: &mut dyn Observer<V>) -> Result<Solution<V>, SolveError> {
+        let start = Instant::now();
+        let part = (PART * self.options.accuracy).min(MOST);
+        let plan = Plan::new(self.patches, self.visibility);
+        let light = self.sketched(&plan, part)?;
+        let planned_bytes = plan.bytes(&light, part);
+        if planned_bytes > self.options.memory {
+            let (patches, available) = (self.patches.len(), self.options.memory);
+            return Err(SolveError::Links { patches, needed: planned_bytes, available });
+        }
+        observer.planned(planned_bytes);
+        // A bar counts the entries of a matrix.
+        let row = self.patches.len().div_ceil(2);
+        let operator = plan.assemble(&light, part, SEEDS[1], |patches| observer.assembled(patches * row));
+        let assembly_seconds = start.elapsed().as_secs_f64();
+        let start = Instant::now();
+        let system = System::new(self.source, self.reflectance, &operator)?;
+        let mut relaxation = self.relaxation(system);
+        let report = self.relax(&mut *relaxation, observer)?;
+        let mut irradiance = vec![V::splat(0.0); self.source.len()];
+        operator.apply(&relaxation.solution(), &mut irradiance);
+        let checked = spread(self.source.len(), SAMPLED_ROWS);
+        let solution = self.judge(system, &irradiance, report, &checked);
+        let light = Light::of(self.patches, &solution.radiosity, &solution.irradiance);
+        let judged = plan.judge(self.source, &solution.radiosity, &light, part);
+        let statistics = *operator.statistics();
+        Ok(Solution {
+            form_factors: statistics.links,
+            rays: statistics.rays,
+            assembly_seconds,
+            solve_seconds: start.elapsed().as_secs_f64(),
+            links: Some(Links { statistics, planned_bytes, judged }),
+            ..solution
+        })
+    }
+
+    /// The light by links from one patch of each cluster, found for light that is the same everywhere.
+    fn sketched(&self, plan: &Plan<'_, V>, part: f64) -> Result<Light, SolveError> {
+        let sketch = plan.sketch(&Light::ambient(self.patches, self.source), part, SEEDS[0]);
+        let system = System::new(self.source, self.reflectance, &sketch)?;
+        let mut relaxation = Gmres::new(system);
+        let stop = Stop { residual: SKETCH.0 * max_norm(self.source), sweeps: SKETCH.1 };
+        relax(&mut relaxation, stop, |_, _, _| true);
+        let u = relaxation.solution();
+        let mut irradiance = vec![V::splat(0.0); u.len()];
+        sketch.apply(&u, &mut irradiance);
+        Ok(Light::of(self.patches, &u, &irradiance))
+    }
+}
