@@ -11,6 +11,8 @@ pub enum Ending {
     NotConverged,
     /// The equation has no solution, or more than one where one was asked for.
     NoAnswer,
+    /// It was interrupted, and what was found is kept.
+    Interrupted,
 }
 
 impl From<Ending> for ExitCode {
@@ -19,6 +21,8 @@ impl From<Ending> for ExitCode {
             Ending::Converged => Self::SUCCESS,
             Ending::NotConverged => Self::from(3),
             Ending::NoAnswer => Self::from(4),
+            // 128 + SIGINT, as shells have it.
+            Ending::Interrupted => Self::from(130),
         }
     }
 }

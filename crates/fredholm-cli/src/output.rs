@@ -5,6 +5,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 use tempfile::NamedTempFile;
 
@@ -91,15 +92,28 @@ static PARTS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// Lets an interrupt (Ctrl-C) take the unfinished files with it, which nobody would ever find again.
 pub fn clear_on_interrupt() -> Result<()> {
-    let clear = || {
-        for part in PARTS.lock().unwrap_or_else(PoisonError::into_inner).iter() {
-            // Most are finished and gone; a last one that cannot be removed has nobody to be told to.
-            let _ = fs::remove_file(part);
-        }
-        // 128 + SIGINT, as shells have it.
-        process::exit(130);
-    };
     ctrlc::set_handler(clear).context("cannot listen for interrupts")
+}
+
+/// Lets the first interrupt only set a flag, so that what is found can be kept; the second one is as above.
+pub fn stop_on_interrupt() -> Result<&'static AtomicBool> {
+    static STOPPED: AtomicBool = AtomicBool::new(false);
+    let stop = || {
+        if STOPPED.swap(true, Ordering::Relaxed) {
+            clear();
+        }
+    };
+    ctrlc::set_handler(stop).context("cannot listen for interrupts")?;
+    Ok(&STOPPED)
+}
+
+fn clear() {
+    for part in PARTS.lock().unwrap_or_else(PoisonError::into_inner).iter() {
+        // Most are finished and gone; a last one that cannot be removed has nobody to be told to.
+        let _ = fs::remove_file(part);
+    }
+    // 128 + SIGINT, as shells have it.
+    process::exit(130);
 }
 
 /// A nameless file in a folder, with the permissions that any new file has.

@@ -7,7 +7,7 @@
 mod scenes;
 
 use fredholm::krylov::Gmres;
-use fredholm::relax::{Stop, relax, Relaxation};
+use fredholm::relax::{Relaxation, Stop, relax};
 use fredholm::system::System;
 use fredholm::value::{Rgb, Value, max_norm};
 use radiosity::hierarchical::{Hierarchical, Light, Plan};
@@ -20,11 +20,19 @@ fn main() {
     let given: Vec<f64> = std::env::args().skip(1).filter_map(|word| word.parse().ok()).collect();
     let part = given.first().copied().unwrap_or(0.01);
     let counts: Vec<usize> = given[1..].iter().map(|n| *n as usize).collect();
-    let names: Vec<String> = std::env::args().skip(1).filter(|word| word.parse::<f64>().is_err() && !word.starts_with('-')).collect();
-    println!("{:>10} {:>9} {:>8} {:>8} {:>7} {:>8} {:>7} {:>7} {:>7} {:>7} {:>7}", "scene", "patches", "links/n", "rays/n", "MB", "told", "links", "patches", "true", "build", "solve");
+    let names: Vec<String> = std::env::args()
+        .skip(1)
+        .filter(|word| word.parse::<f64>().is_err() && !word.starts_with('-'))
+        .collect();
+    println!(
+        "{:>10} {:>9} {:>8} {:>8} {:>7} {:>8} {:>7} {:>7} {:>7} {:>7} {:>7}",
+        "scene", "patches", "links/n", "rays/n", "MB", "told", "links", "patches", "true", "build", "solve"
+    );
     for n in counts {
         let building = (n as f64 / 2500.0).sqrt().ceil() as usize;
-        for scene in [cornell_box(), scenes::boxes(), scenes::terrain(n), scenes::building(building.clamp(2, 12))] {
+        for scene in
+            [cornell_box(), scenes::boxes(), scenes::terrain(n), scenes::building(building.clamp(2, 12))]
+        {
             if names.is_empty() || names.iter().any(|name| scene.name.contains(name.as_str())) {
                 row(&scene, n, part);
             }
@@ -67,9 +75,11 @@ fn row(scene: &Scene<Rgb>, n: usize, part: f64) {
     let truth = if patches.len() <= 8_000 {
         let finer = plan.assemble(&light, 0.003, 77, |_| ());
         let [v, _] = solve(&finer, &patches, &source);
-        let norm = |a: &dyn Fn(usize) -> f64| (0..v.len()).map(|i| patches.areas[i] * a(i)).sum::<f64>().sqrt();
+        let norm =
+            |a: &dyn Fn(usize) -> f64| (0..v.len()).map(|i| patches.areas[i] * a(i)).sum::<f64>().sqrt();
         if std::env::var("DUMP").is_ok() {
-            let mut worst: Vec<(f64, usize)> = (0..v.len()).map(|i| (patches.areas[i] * (u[i] - v[i]).magnitude().powi(2), i)).collect();
+            let mut worst: Vec<(f64, usize)> =
+                (0..v.len()).map(|i| (patches.areas[i] * (u[i] - v[i]).magnitude().powi(2), i)).collect();
             worst.sort_by(|a, b| b.0.total_cmp(&a.0));
             for (name, op) in [("operator", &operator), ("finer", &finer)] {
                 let ones = vec![1.0; v.len()];
@@ -77,10 +87,19 @@ fn row(scene: &Scene<Rgb>, n: usize, part: f64) {
                 fredholm::operator::Operator::apply(op, &ones, &mut sums);
                 for surface in 0..scene.surfaces.len() {
                     let of = || (0..v.len()).filter(|i| patches.surface[*i] as usize == surface);
-                    let mean = of().map(|i| patches.areas[i] * sums[i]).sum::<f64>() / of().map(|i| patches.areas[i]).sum::<f64>();
+                    let mean = of().map(|i| patches.areas[i] * sums[i]).sum::<f64>()
+                        / of().map(|i| patches.areas[i]).sum::<f64>();
                     println!("{name} {}: mean row sum {mean:.4}", scene.surfaces[surface].name);
                 }
-                println!("{name} ceiling {:.4} links {}", (1000..1600).filter(|i| patches.polygons[*i].normal().z < -0.9).map(|i| sums[i]).sum::<f64>() / (1000..1600).filter(|i| patches.polygons[*i].normal().z < -0.9).count() as f64, op.statistics().links);
+                println!(
+                    "{name} ceiling {:.4} links {}",
+                    (1000..1600)
+                        .filter(|i| patches.polygons[*i].normal().z < -0.9)
+                        .map(|i| sums[i])
+                        .sum::<f64>()
+                        / (1000..1600).filter(|i| patches.polygons[*i].normal().z < -0.9).count() as f64,
+                    op.statistics().links
+                );
             }
             let total: f64 = worst.iter().map(|w| w.0).sum();
             let mut sum = 0.0;
@@ -88,7 +107,14 @@ fn row(scene: &Scene<Rgb>, n: usize, part: f64) {
                 sum += w;
                 if k < 25 || k.is_power_of_two() {
                     let p = &patches.polygons[*i];
-                    println!("{k:>6} {:.3} {i} at {:.2} n {:.1} u {:.4} v {:.4}", sum / total, p.centroid(), p.normal(), u[*i].magnitude(), v[*i].magnitude());
+                    println!(
+                        "{k:>6} {:.3} {i} at {:.2} n {:.1} u {:.4} v {:.4}",
+                        sum / total,
+                        p.centroid(),
+                        p.normal(),
+                        u[*i].magnitude(),
+                        v[*i].magnitude()
+                    );
                 }
             }
         }
@@ -101,7 +127,17 @@ fn row(scene: &Scene<Rgb>, n: usize, part: f64) {
     let n = patches.len() as f64;
     println!(
         "{:>10} {:>9} {:>8.1} {:>8.1} {:>7} {:>7.2}% {:>6.2}% {:>6.2}% {:>6.2}% {:>7.2} {:>7.2}   tree {tree:.2} first {t1:.2} solve {t2:.2} judge {:.2}",
-        scene.name, patches.len(), s.links as f64 / n, s.rays as f64 / n, s.bytes >> 20,
-        100.0 * judged.error, 100.0 * judged.links, 100.0 * judged.patches, 100.0 * truth, build, solved, told - solved
+        scene.name,
+        patches.len(),
+        s.links as f64 / n,
+        s.rays as f64 / n,
+        s.bytes >> 20,
+        100.0 * judged.error,
+        100.0 * judged.links,
+        100.0 * judged.patches,
+        100.0 * truth,
+        build,
+        solved,
+        told - solved
     );
 }

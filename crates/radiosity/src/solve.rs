@@ -7,6 +7,7 @@ pub use hierarchical::Links;
 use crate::closure::Closure;
 use crate::elements::{Elements, Space};
 use crate::form_factor::{FormFactors, point_to_point};
+use crate::hierarchical::{Kept, KeptError};
 use crate::kernel::Lambertian;
 use crate::lights;
 use crate::patches::Patches;
@@ -22,6 +23,7 @@ use fredholm::relax::{
 use fredholm::system::{System, SystemError, error_bound, norm_bound, row_sums};
 use fredholm::value::{Value, max_norm};
 use rayon::prelude::*;
+use std::io::Read;
 use std::time::Instant;
 
 /// How the equation becomes numbers: what F_ij is.
@@ -131,6 +133,17 @@ pub enum SolveError {
         /// Bytes that they may take.
         available: u64,
     },
+    /// The observer said that there is no time.
+    #[error("interrupted; {} of {patches} patches have their links", kept.patches())]
+    Interrupted {
+        /// The number of patches.
+        patches: usize,
+        /// The links that there are, to go on with.
+        kept: Box<Kept>,
+    },
+    /// The links that were to be gone on with are of no use.
+    #[error(transparent)]
+    Kept(#[from] KeptError),
     /// Links are between patches with constant light.
     #[error(
         "the hierarchical operator is for the galerkin method with constants on patches: take the dense one, or on-the-fly"
@@ -158,6 +171,16 @@ pub enum SolveError {
 pub trait Observer<V: Value>: Sync {
     /// About so many bytes will be taken for form factors, of which there are none yet.
     fn planned(&self, _bytes: u64) {}
+
+    /// Links to go on with: a file of [`Kept`] ones.
+    fn kept(&mut self) -> Option<Box<dyn Read>> {
+        None
+    }
+
+    /// Whether to stop; asked from any thread while there are links to be found.
+    fn stops(&self) -> bool {
+        false
+    }
 
     /// `entries` more form factors are computed; called from any thread.
     fn assembled(&self, entries: usize);
@@ -224,7 +247,11 @@ pub fn solve<V: Value>(
     let run = Run { patches, visibility, options, source, lit, reflectance, weights: areas, space: None };
     match options.method {
         _ if options.storage == Storage::Hierarchical => {
-            if options.method == Method::Galerkin { run.link(observer) } else { Err(SolveError::NoLinks) }
+            if options.method == Method::Galerkin {
+                run.link(observer)
+            } else {
+                Err(SolveError::NoLinks)
+            }
         }
         Method::Nystrom => {
             let coupling = point_to_point(patches, visibility);

@@ -61,13 +61,14 @@ Exit codes: 0 solved; 1 an error; 2 a mistake on the command line; 3 all is writ
 residual did not reach the tolerance within the iterations; 4 no answer, or more than one (--thermal).";
 
 /// What says how to find the answer, and has no place where only its error is asked for.
-const WAYS: [&str; 13] = [
+const WAYS: [&str; 14] = [
     "thermal",
     "patch_size",
     "patch_count",
     "method",
     "space",
     "solver",
+    "operator",
     "ambient",
     "factor_accuracy",
     "tolerance",
@@ -92,7 +93,7 @@ pub struct Radiosity {
     #[arg(
         long,
         requires = "scene",
-        conflicts_with_all = ["bands", "photometric", "method", "solver", "ambient", "frames", "html", "gather"],
+        conflicts_with_all = ["bands", "photometric", "method", "solver", "operator", "ambient", "frames", "html", "gather"],
         help_heading = "Scene"
     )]
     pub thermal: bool,
@@ -123,9 +124,13 @@ pub struct Radiosity {
     #[arg(long, value_enum, default_value_t = Space::P0, help_heading = "Equation")]
     pub space: Space,
 
-    /// How the numbers are solved for [default: gauss-seidel]
+    /// How the numbers are solved for [default: gauss-seidel; gmres for the hierarchical operator]
     #[arg(long, value_enum, help_heading = "Equation")]
     pub solver: Option<Solver>,
+
+    /// How form factors are kept [default: dense; on-the-fly for southwell; hierarchical from 10 000 patches on]
+    #[arg(long, value_enum, help_heading = "Equation")]
+    pub operator: Option<Operator>,
 
     /// Add the ambient estimate of the light still to be shot to the frames of the southwell solver
     #[arg(long, requires = "frames", help_heading = "Equation")]
@@ -152,6 +157,14 @@ pub struct Radiosity {
     /// The most iterations [default: 1000; for southwell, 1000 per patch]
     #[arg(long, value_name = "N", value_parser = at_least_one, help_heading = "Equation")]
     pub iterations: Option<usize>,
+
+    /// Where to keep what is found if the run is interrupted with Ctrl-C (hierarchical operator)
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["thermal", "accuracy"], help_heading = "Equation")]
+    pub checkpoint: Option<PathBuf>,
+
+    /// Go on from a checkpoint, with the same scene, patches and --factor-accuracy
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["thermal", "accuracy"], help_heading = "Equation")]
+    pub resume: Option<PathBuf>,
 
     /// Threads to work with [default: one per core]
     #[arg(long, value_name = "N", value_parser = number(1, 1024), help_heading = "Equation")]
@@ -232,6 +245,9 @@ impl Radiosity {
             || self.method.is_some()
             || self.space != Space::P0
             || self.solver.is_some()
+            || self.operator.is_some()
+            || self.checkpoint.is_some()
+            || self.resume.is_some()
             || self.factor_accuracy.is_some()
             || self.tolerance.is_some()
             || self.iterations.is_some()
@@ -291,6 +307,27 @@ impl Space {
             Self::P0 => None,
             Self::P1 => Some(Degree::Linear),
             Self::P2 => Some(Degree::Quadratic),
+        }
+    }
+}
+
+/// [`solve::Storage`], with words for the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Operator {
+    /// All of them, as a matrix: memory and time grow with the square of the patches
+    Dense,
+    /// None: they are computed whenever they are asked for
+    OnTheFly,
+    /// From patches to clusters of others, as large as the error allows: for very many patches
+    Hierarchical,
+}
+
+impl From<Operator> for solve::Storage {
+    fn from(operator: Operator) -> Self {
+        match operator {
+            Operator::Dense => Self::Dense,
+            Operator::OnTheFly => Self::OnTheFly,
+            Operator::Hierarchical => Self::Hierarchical,
         }
     }
 }

@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod args;
+mod checkpoint;
 mod domain;
 pub mod frames;
 mod html;
@@ -16,6 +17,7 @@ mod thermal;
 pub mod timing;
 
 use self::args::{Bands, Radiosity};
+use self::checkpoint::Checkpoint;
 use self::domain::Domain;
 use self::frames::Frames;
 use self::html::Recording;
@@ -28,7 +30,7 @@ use self::table::table;
 use self::timing::{Seconds, timed};
 use crate::ending::Ending;
 use crate::json::{self, Json};
-use crate::output::{Output, clear_on_interrupt};
+use crate::output::Output;
 use crate::terminal::warn;
 use anyhow::{Context, Result, bail};
 use fredholm::relax::Outcome;
@@ -37,14 +39,14 @@ use radiosity::elements::Space;
 use radiosity::export::Field;
 use radiosity::render::Colour;
 use radiosity::scene::{CleanUp, Scene, SolveOptions, Units, cornell_box, cornell_box_spectral, load_in};
-use radiosity::solve::{Solution, solve, solve_elements};
+use radiosity::solve::{Solution, SolveError, solve, solve_elements};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// `fredholm radiosity`.
 pub fn command(args: &Radiosity) -> Result<Ending> {
-    clear_on_interrupt()?;
+    let checkpoint = Checkpoint::prepare(args)?;
     if let Some(threads) = args.threads {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         pool.build_global().with_context(|| format!("cannot start {threads} threads"))?;
@@ -54,8 +56,10 @@ pub fn command(args: &Radiosity) -> Result<Ending> {
     let (watts, untouched) = (Units::Radiometric, CleanUp::default());
     match (&args.scene, args.bands) {
         (Some(file), _) if args.thermal => thermal::command(file, args, start),
-        (None, Bands::Rgb) => walk(&cornell_box(), (watts, untouched), &unsaid, args, start),
-        (None, Bands::Spectral) => walk(&cornell_box_spectral(), (watts, untouched), &unsaid, args, start),
+        (None, Bands::Rgb) => walk(&cornell_box(), (watts, untouched), &unsaid, args, (start, checkpoint)),
+        (None, Bands::Spectral) => {
+            walk(&cornell_box_spectral(), (watts, untouched), &unsaid, args, (start, checkpoint))
+        }
         (Some(file), Bands::Rgb) => {
             let mut loaded = load_in(file, args.photometric.then_some(Units::Photometric))?;
             loaded.warnings.iter().try_for_each(warn)?;
@@ -64,8 +68,8 @@ pub fn command(args: &Radiosity) -> Result<Ending> {
             }
             let mesh = (loaded.units, loaded.clean_up);
             match loaded.units {
-                Units::Photometric => walk(&loaded.grey(), mesh, &loaded.solve, args, start),
-                Units::Radiometric => walk(&loaded.scene, mesh, &loaded.solve, args, start),
+                Units::Photometric => walk(&loaded.grey(), mesh, &loaded.solve, args, (start, checkpoint)),
+                Units::Radiometric => walk(&loaded.scene, mesh, &loaded.solve, args, (start, checkpoint)),
             }
         }
         (Some(file), Bands::Spectral) => bail!(
@@ -81,14 +85,14 @@ fn walk<V: Colour>(
     (units, clean_up): (Units, CleanUp),
     wishes: &SolveOptions,
     args: &Radiosity,
-    start: Instant,
+    (start, checkpoint): (Instant, Checkpoint),
 ) -> Result<Ending> {
     if let Some(accuracy) = args.accuracy.or(wishes.accuracy.filter(|_| !args.has_ways())) {
         return accuracy::walk(scene, (units, clean_up), accuracy, args, start);
     }
     picture::check_map(args.map, units)?;
     let mut seconds = Seconds { load: start.elapsed().as_secs_f64(), ..Seconds::default() };
-    let settings = Settings::new(args, wishes, args.scene.as_deref().unwrap_or(Path::new("")))?;
+    let settings = Settings::new(args, wishes, scene, args.scene.as_deref().unwrap_or(Path::new("")))?;
     let Outputs { picture, patches, html, json, frames } = Outputs::prepare(args, &scene.name)?;
 
     let domain = Domain::new(scene, settings.size(scene), &mut seconds)?;
@@ -96,11 +100,23 @@ fn walk<V: Colour>(
     let Domain { patches: mesh, visibility, .. } = &domain;
     let space = settings.space.degree().map(|degree| Space::new(&mesh.polygons, degree));
     let recording = html.is_some().then(|| Recording::new(&settings)).transpose()?;
-    let mut watcher = Watcher::new((&settings, units), mesh, space.as_ref(), (frames, recording));
+    let resume = args.resume.as_deref().map(checkpoint::open).transpose()?;
+    let on = (checkpoint.stop(), resume);
+    let mut watcher = Watcher::new((&settings, units), mesh, space.as_ref(), (frames, recording), on);
     let options = settings.options(space.as_ref().map_or(mesh.len(), Space::dim));
-    let solution = match &space {
-        None => solve(mesh, visibility, &options, &mut watcher)?,
-        Some(space) => means(space, solve_elements(space, mesh, visibility, &options, &mut watcher)?),
+    let solved = match &space {
+        None => solve(mesh, visibility, &options, &mut watcher),
+        Some(space) => {
+            solve_elements(space, mesh, visibility, &options, &mut watcher).map(|found| means(space, found))
+        }
+    };
+    let solution = match solved {
+        Err(SolveError::Interrupted { patches, kept }) => return checkpoint.keep(&kept, patches),
+        Err(error @ SolveError::Kept(_)) => {
+            return Err(error)
+                .with_context(|| format!("{}", args.resume.as_deref().unwrap_or(Path::new("")).display()));
+        }
+        solved => solved?,
     };
     let (mut files, recording) = watcher.finish(&solution, &mut seconds)?;
 

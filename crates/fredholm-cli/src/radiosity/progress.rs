@@ -1,6 +1,7 @@
 //! How far the work is, on the terminal, and the frames on the way; silent where nobody looks.
 
 use super::args::Method;
+use super::checkpoint::Stop;
 use super::frames::Frames;
 use super::html::Recording;
 use super::settings::Settings;
@@ -15,6 +16,8 @@ use radiosity::patches::Patches;
 use radiosity::render::Colour;
 use radiosity::scene::Units;
 use radiosity::solve::{Observer, Solution};
+use std::fs::File;
+use std::io::{BufReader, Read};
 use std::path::PathBuf;
 
 /// Steps of the bar of a relaxation, from the first residual to the last on a logarithmic scale.
@@ -31,6 +34,8 @@ pub struct Watcher<'a, V> {
     frames: Option<Frames>,
     recording: Option<Recording>,
     failed: Option<anyhow::Error>,
+    stop: Stop,
+    resume: Option<File>,
 }
 
 impl<'a, V: Colour> Watcher<'a, V> {
@@ -40,6 +45,7 @@ impl<'a, V: Colour> Watcher<'a, V> {
         patches: &'a Patches<V>,
         space: Option<&'a Space<'a>>,
         (frames, recording): (Option<Frames>, Option<Recording>),
+        (stop, resume): (Stop, Option<File>),
     ) -> Self {
         let n = space.map_or(patches.len(), Space::dim) as u64;
         // Reciprocity, A_i F_ij = A_j F_ji, halves the work where patches are tested as wholes or both as points.
@@ -55,6 +61,8 @@ impl<'a, V: Colour> Watcher<'a, V> {
             frames,
             recording,
             failed: None,
+            stop,
+            resume,
         }
     }
 
@@ -80,6 +88,19 @@ impl<'a, V: Colour> Watcher<'a, V> {
 }
 
 impl<V: Colour> Observer<V> for Watcher<'_, V> {
+    fn kept(&mut self) -> Option<Box<dyn Read>> {
+        let file = self.resume.take()?;
+        Some(Box::new(BufReader::new(file)))
+    }
+
+    fn stops(&self) -> bool {
+        self.stop.is_asked()
+    }
+
+    fn planned(&self, bytes: u64) {
+        self.assembly.set_message(format!("about {} MB", bytes >> 20));
+    }
+
     fn assembled(&self, entries: usize) {
         self.assembly.inc(entries as u64);
     }
@@ -99,9 +120,9 @@ impl<V: Colour> Observer<V> for Watcher<'_, V> {
         if let Some(recording) = &mut self.recording {
             recording.record((iteration, norm <= target), self.patches, relaxation, means);
         }
-        let Some(frames) = &mut self.frames else { return true };
+        let Some(frames) = &mut self.frames else { return !self.stop.is_asked() };
         let shown = || means(relaxation.preview());
         self.failed = frames.record(iteration, self.patches, shown).err();
-        self.failed.is_none()
+        self.failed.is_none() && !self.stop.is_asked()
     }
 }

@@ -33,6 +33,11 @@ pub struct Report {
     pub method: String,
     /// The solver.
     pub solver: String,
+    /// How form factors are kept.
+    pub operator: String,
+    /// Of form factors that are links to clusters.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub links: Option<Links>,
     /// `converged`, `out of iterations` or `stalled at rounding`.
     pub outcome: &'static str,
     /// Iterations made.
@@ -77,6 +82,40 @@ pub struct Report {
     pub surfaces: Vec<Surface>,
     /// The files written.
     pub files: Vec<PathBuf>,
+}
+
+/// Links to clusters, and the error of the light that they bring: in the mean square over all surfaces, relative.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Links {
+    /// Links from a patch to a cluster.
+    pub links: u64,
+    /// Clusters, single patches among them.
+    pub clusters: usize,
+    /// What they take.
+    pub bytes: u64,
+    /// What they were expected to take.
+    pub planned_bytes: u64,
+    /// In all.
+    pub error: f64,
+    /// Of the patches, on each of which light is taken to be constant.
+    pub discretisation_error: f64,
+    /// Of the links: clusters, form factors, visibility; and of the iteration.
+    pub link_error: f64,
+}
+
+impl From<radiosity::solve::Links> for Links {
+    fn from(links: radiosity::solve::Links) -> Self {
+        let radiosity::solve::Links { statistics, planned_bytes, judged } = links;
+        Self {
+            links: statistics.links,
+            clusters: statistics.clusters,
+            bytes: statistics.bytes,
+            planned_bytes,
+            error: judged.error,
+            discretisation_error: judged.patches,
+            link_error: judged.links,
+        }
+    }
 }
 
 /// The units of a report.
@@ -164,6 +203,8 @@ impl Report {
             unknowns,
             method: name(&settings.method),
             solver: name(&settings.solver),
+            operator: name(&settings.operator),
+            links: solution.links.map(Links::from),
             outcome: match solution.report.outcome {
                 Outcome::Converged => "converged",
                 Outcome::Stalled => "stalled at rounding",

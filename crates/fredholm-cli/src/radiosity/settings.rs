@@ -1,18 +1,22 @@
 //! How to solve: the command line's word before the scene file's, the scene file's before the default.
 
-use super::args::{Method, Radiosity, Solver, Space};
+use super::args::{Method, Operator, Radiosity, Solver, Space};
 use super::memory;
 use crate::args::name;
 use anyhow::{Result, bail};
 use clap::ValueEnum;
 use fredholm::value::Value;
-use radiosity::patches::size_for_count;
+use radiosity::patches::{count_for_size, size_for_count};
 use radiosity::scene::{Scene, SolveOptions};
 use radiosity::solve::Options;
 use std::path::Path;
 
 /// Patches when nobody says how many: a few seconds of work, and corners without visible steps.
 const PATCHES: usize = 5000;
+
+/// So many patches are linked to clusters where nobody says how form factors are to be kept: that is faster from some thousand on,
+/// and its error is told, but it is an error.
+const LINKED: usize = 10_000;
 
 /// Sweeps over all patches; whatever converges in use needs far fewer.
 const SWEEPS: usize = 1000;
@@ -26,6 +30,8 @@ pub struct Settings {
     pub space: Space,
     /// The solver.
     pub solver: Solver,
+    /// How form factors are kept.
+    pub operator: Operator,
     /// The largest side of a patch, in metres; `None` for a number of patches.
     pub patch_size: Option<f64>,
     /// About how many patches, where their size is not given.
@@ -38,16 +44,35 @@ pub struct Settings {
 
 impl Settings {
     /// What the command line and the scene file say together; `file` is named where its words are wrong.
-    pub fn new(args: &Radiosity, wishes: &SolveOptions, file: &Path) -> Result<Self> {
+    pub fn new<V: Value>(
+        args: &Radiosity,
+        wishes: &SolveOptions,
+        scene: &Scene<V>,
+        file: &Path,
+    ) -> Result<Self> {
         let method = wish("method", wishes.method.as_deref(), file)?;
         let solver = wish("solver", wishes.solver.as_deref(), file)?;
         let size = args.patch_size.or(wishes.patch_size.filter(|_| args.patch_count.is_none()));
+        let (patch_count, solver) = (args.patch_count.unwrap_or(PATCHES), args.solver.or(solver));
+        let method = args.method.or(method).unwrap_or(Method::Galerkin);
+        let many = size.map_or_else(
+            || patch_count.max(scene.polygons().len()),
+            |size| count_for_size(scene, size) as usize,
+        );
+        let linked = many >= LINKED && method == Method::Galerkin && args.space == Space::P0;
+        let operator = args.operator.unwrap_or(match solver {
+            Some(Solver::Southwell) => Operator::OnTheFly,
+            _ if linked => Operator::Hierarchical,
+            _ => Operator::Dense,
+        });
+        let by_rows = operator != Operator::Hierarchical;
         let settings = Self {
-            method: args.method.or(method).unwrap_or(Method::Galerkin),
+            method,
             space: args.space,
-            solver: args.solver.or(solver).unwrap_or(Solver::GaussSeidel),
+            solver: solver.unwrap_or(if by_rows { Solver::GaussSeidel } else { Solver::Gmres }),
+            operator,
             patch_size: size,
-            patch_count: args.patch_count.unwrap_or(PATCHES),
+            patch_count,
             accuracy: args.factor_accuracy.or(wishes.factor_accuracy).unwrap_or(1e-3),
             tolerance: args.tolerance.or(wishes.tolerance).unwrap_or(1e-6),
             iterations: args.iterations,
@@ -57,6 +82,14 @@ impl Settings {
             bail!(
                 "--ambient estimates the light that is still to be shot; the {} solver does not shoot, southwell does",
                 name(&settings.solver)
+            );
+        }
+        let keeps = args.checkpoint.is_some() || args.resume.is_some();
+        if keeps && settings.operator != Operator::Hierarchical {
+            bail!(
+                "--checkpoint and --resume are of the hierarchical operator, and this is {}: say --operator hierarchical, \
+                 or leave them out",
+                name(&settings.operator)
             );
         }
         Ok(settings)
@@ -86,6 +119,7 @@ impl Settings {
         Options {
             method: self.method.into(),
             solver: self.solver.into(),
+            storage: self.operator.into(),
             accuracy: self.accuracy,
             tolerance: self.tolerance,
             iterations: self.iterations.unwrap_or(SWEEPS * sweep),

@@ -53,6 +53,21 @@ fn lines(report: &Report) -> Vec<(&'static str, String)> {
     if report.unknowns > report.patches {
         lines.insert(1, ("space", space(report)));
     }
+    if let Some(of) = &report.links {
+        let each = of.links as f64 / report.patches as f64;
+        let links = format!(
+            "{}, {each:.0} a patch, to {} clusters; {} MB",
+            grouped(of.links),
+            grouped(of.clusters as u64),
+            grouped(of.bytes >> 20)
+        );
+        // In the place of form factors: a link is one.
+        lines[1] = ("links", links);
+        let [all, patches, links] =
+            [of.error, of.discretisation_error, of.link_error].map(|part| format!("{:.2} %", 100.0 * part));
+        let error = format!("{all} of the light in the mean square: patches {patches}, links {links}");
+        lines.push(("error", error));
+    }
     if report.point_lights > 0 {
         lines.insert(0, ("point lights", grouped(report.point_lights as u64)));
     }

@@ -10,7 +10,12 @@ fn scene(name: &str, surfaces: Vec<Surface<Rgb>>) -> Scene<Rgb> {
 }
 
 fn surface(name: &str, reflectance: [f64; 3], emission: f64, polygons: Vec<Polygon>) -> Surface<Rgb> {
-    Surface { name: name.into(), reflectance: Spectrum(reflectance), emission: Spectrum([emission; 3]), polygons }
+    Surface {
+        name: name.into(),
+        reflectance: Spectrum(reflectance),
+        emission: Spectrum([emission; 3]),
+        polygons,
+    }
 }
 
 const WHITE: [f64; 3] = [0.7; 3];
@@ -51,11 +56,19 @@ pub fn boxes() -> Scene<Rgb> {
     for k in 0..16_u32 {
         let (i, j) = (f64::from(k % 4), f64::from(k / 4));
         let low = DVec3::new(1.5 + 5.0 * i + 0.3 * j, 1.2 + 5.0 * j - 0.2 * i, 0.05);
-        let size = DVec3::new(1.5 + 0.25 * f64::from(k % 3), 2.0 - 0.2 * f64::from(k % 5), 0.8 + 0.2 * f64::from(k % 7));
+        let size = DVec3::new(
+            1.5 + 0.25 * f64::from(k % 3),
+            2.0 - 0.2 * f64::from(k % 5),
+            0.8 + 0.2 * f64::from(k % 7),
+        );
         inside.extend(solid(low, low + size));
     }
     for (i, j) in [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)] {
-        lamps.push(rectangle(DVec3::new(4.0 + 10.0 * i, 4.0 + 10.0 * j, 5.9), DVec3::Y * 2.0, DVec3::X * 1.0));
+        lamps.push(rectangle(
+            DVec3::new(4.0 + 10.0 * i, 4.0 + 10.0 * j, 5.9),
+            DVec3::Y * 2.0,
+            DVec3::X * 1.0,
+        ));
     }
     let parts = vec![
         surface("hall", WHITE, 0.0, hall),
@@ -71,11 +84,16 @@ pub fn terrain(count: usize) -> Scene<Rgb> {
     let craters: Vec<[f64; 3]> = (0..60_u32)
         .map(|k| {
             let part = |step: f64| (0.5 + step * f64::from(k + 1)).fract();
-            [1000.0 * part(0.754_877_666), 1000.0 * part(0.569_840_291), 20.0 + 100.0 * part(0.618_033_989).powi(4)]
+            [
+                1000.0 * part(0.754_877_666),
+                1000.0 * part(0.569_840_291),
+                20.0 + 100.0 * part(0.618_033_989).powi(4),
+            ]
         })
         .collect();
     let height = |x: f64, y: f64| {
-        let rolling = 12.0 * (0.011 * x + 0.3).sin() * (0.013 * y).cos() + 3.0 * (0.05 * x).cos() * (0.043 * y + 1.0).sin();
+        let rolling = 12.0 * (0.011 * x + 0.3).sin() * (0.013 * y).cos()
+            + 3.0 * (0.05 * x).cos() * (0.043 * y + 1.0).sin();
         let crater = |[cx, cy, radius]: &[f64; 3]| {
             let r = ((x - cx).powi(2) + (y - cy).powi(2)).sqrt() / radius;
             // A bowl a fifth as deep as wide, with a rim.
@@ -94,9 +112,21 @@ pub fn terrain(count: usize) -> Scene<Rgb> {
             ground.extend([Polygon::triangle(a, b, c), Polygon::triangle(a, c, d)]);
         }
     }
-    let lamp = rectangle(DVec3::new(0.0, -600.0, 500.0), DVec3::new(1000.0, 0.0, 0.0), DVec3::new(0.0, 200.0, 400.0));
-    let lamp = Polygon::quadrilateral(lamp.vertices()[3], lamp.vertices()[2], lamp.vertices()[1], lamp.vertices()[0]);
-    scene("terrain", vec![surface("ground", [0.4, 0.35, 0.3], 0.0, ground), surface("lamp", BLACK, 1000.0, vec![lamp])])
+    let lamp = rectangle(
+        DVec3::new(0.0, -600.0, 500.0),
+        DVec3::new(1000.0, 0.0, 0.0),
+        DVec3::new(0.0, 200.0, 400.0),
+    );
+    let lamp = Polygon::quadrilateral(
+        lamp.vertices()[3],
+        lamp.vertices()[2],
+        lamp.vertices()[1],
+        lamp.vertices()[0],
+    );
+    scene(
+        "terrain",
+        vec![surface("ground", [0.4, 0.35, 0.3], 0.0, ground), surface("lamp", BLACK, 1000.0, vec![lamp])],
+    )
 }
 
 /// `side` × `side` rooms of 5 m × 5 m × 3 m with a lamp each, open to their neighbours by doors in walls of 20 cm.

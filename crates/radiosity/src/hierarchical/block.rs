@@ -5,7 +5,7 @@ use fredholm::value::Value;
 use std::ops::Range;
 
 /// F_iC for the patches i of a cluster and the clusters C of its cut.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Block {
     receiver: Cluster,
     patches: usize,
@@ -15,14 +15,23 @@ pub(super) struct Block {
 }
 
 impl Block {
+    /// From senders and their factors, column by column.
+    pub fn from_parts(receiver: Cluster, patches: usize, senders: Vec<Cluster>, factors: Vec<f32>) -> Self {
+        Self { receiver, patches, senders: senders.into(), factors: factors.into() }
+    }
+
     /// From columns, of which those are left out that nothing comes from.
-    pub fn new(receiver: Cluster, patches: usize, columns: impl Iterator<Item = (Cluster, Vec<f32>)>) -> Self {
+    pub fn new(
+        receiver: Cluster,
+        patches: usize,
+        columns: impl Iterator<Item = (Cluster, Vec<f32>)>,
+    ) -> Self {
         let (mut senders, mut factors) = (Vec::new(), Vec::new());
         for (sender, column) in columns.filter(|(_, column)| column.iter().any(|factor| *factor != 0.0)) {
             senders.push(sender);
             factors.extend(column);
         }
-        Self { receiver, patches, senders: senders.into(), factors: factors.into() }
+        Self::from_parts(receiver, patches, senders, factors)
     }
 
     /// The cluster of its patches.

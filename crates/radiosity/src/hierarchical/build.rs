@@ -4,6 +4,7 @@ use super::block::Block;
 use super::clusters::Clusters;
 use super::cut::Cuts;
 use super::factor::{Factors, Link};
+use super::kept::Kept;
 use super::{Hierarchical, Statistics};
 use crate::patches::Patches;
 use crate::visibility::Visibility;
@@ -13,7 +14,7 @@ use rayon::prelude::*;
 use std::sync::Arc;
 
 /// What is known of the light, or guessed, by patch: how bright it is and what arrives, in W/m², of the brightest channel.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Light {
     pub(super) brightness: Vec<f64>,
     pub(super) arriving: Vec<f64>,
@@ -28,7 +29,8 @@ impl Light {
     pub fn ambient<V: Value>(patches: &Patches<V>, source: &[V]) -> Self {
         let (areas, rho) = (&patches.areas, &patches.reflectance);
         let total: f64 = areas.iter().sum();
-        let mean = |values: &[V]| areas.iter().zip(values).map(|(a, v)| a * v.magnitude()).sum::<f64>() / total;
+        let mean =
+            |values: &[V]| areas.iter().zip(values).map(|(a, v)| a * v.magnitude()).sum::<f64>() / total;
         let ambient = mean(source) / (1.0 - mean(rho).min(MOST_REFLECTED));
         let brightness = source.iter().zip(rho).map(|(f, rho)| f.magnitude() + rho.magnitude() * ambient);
         Self { brightness: brightness.collect(), arriving: vec![ambient; source.len()] }
@@ -44,6 +46,15 @@ impl Light {
             arriving: irradiance.iter().map(|h| h.magnitude().max(DIM * mean)).collect(),
         }
     }
+}
+
+/// What links are made for, and how.
+struct Work<'a> {
+    light: &'a Light,
+    part: f64,
+    seed: u64,
+    /// So many patches of a receiver have links.
+    most: usize,
 }
 
 /// A scene that reflects more than that in the mean has this ambient term.
@@ -96,65 +107,128 @@ impl<'a, V: Value> Plan<'a, V> {
         let squares: Vec<f64> = light.brightness.iter().map(|b| b * b).collect();
         let [brightness, squares, arriving] =
             [&light.brightness, &squares, &light.arriving].map(|values| self.clusters.means(values));
-        let deviation = brightness.iter().zip(squares).map(|(mean, square)| (square - mean * mean).max(0.0).sqrt());
+        let deviation =
+            brightness.iter().zip(squares).map(|(mean, square)| (square - mean * mean).max(0.0).sqrt());
         [deviation.collect(), brightness, arriving]
     }
 
-    pub(super) fn cuts<'b>(&'b self, [deviation, brightness, arriving]: &'b [Vec<f64>; 3], part: f64) -> Cuts<'b> {
+    pub(super) fn cuts<'b>(
+        &'b self,
+        [deviation, brightness, arriving]: &'b [Vec<f64>; 3],
+        part: f64,
+    ) -> Cuts<'b> {
         Cuts { clusters: &self.clusters, visibility: self.visibility, brightness, deviation, arriving, part }
     }
 
     pub(super) fn factors(&self, seed: u64) -> Factors<'_> {
-        Factors { clusters: &self.clusters, polygons: &self.patches.polygons, visibility: self.visibility, seed }
+        Factors {
+            clusters: &self.clusters,
+            polygons: &self.patches.polygons,
+            visibility: self.visibility,
+            seed,
+        }
     }
 
     /// All links. `progress` is told of how many patches more they are there, from any thread.
-    pub fn assemble(&self, light: &Light, part: f64, seed: u64, progress: impl Fn(usize) + Sync) -> Hierarchical {
-        self.links(light, part, (seed, TOGETHER), progress)
+    pub fn assemble(
+        &self,
+        light: &Light,
+        part: f64,
+        seed: u64,
+        progress: impl Fn(usize) + Sync,
+    ) -> Hierarchical {
+        let work = Work { light, part, seed, most: TOGETHER };
+        let built = self.built(&work, vec![None; self.receivers.len()], (progress, || false));
+        self.gathered(built.into_iter().flatten())
     }
 
     /// The links of one patch of each cluster, which stands for the others: enough to tell how bright these are.
     pub fn sketch(&self, light: &Light, part: f64, seed: u64) -> Hierarchical {
-        self.links(light, part, (seed, 1), |_| ())
+        let work = Work { light, part, seed, most: 1 };
+        let built = self.built(&work, vec![None; self.receivers.len()], (|_| (), || false));
+        self.gathered(built.into_iter().flatten())
     }
 
-    fn links(
+    /// The links that are still missing, unless `stops`, asked from any thread, says that there is no time: then what there is.
+    pub fn go_on(
         &self,
-        light: &Light,
+        kept: Kept,
         part: f64,
-        (seed, most): (u64, usize),
-        progress: impl Fn(usize) + Sync,
-    ) -> Hierarchical {
-        let means = self.means(light);
-        let (cuts, factors) = (self.cuts(&means, part), self.factors(seed));
-        let build = |found: &mut Vec<Cluster>, receiver: &Cluster| {
-            cuts.of(*receiver, found);
-            let all = self.clusters.tree.members(*receiver);
-            let members = &all[..all.len().min(most)];
-            let hull = self.clusters.hull(*receiver, &self.patches.polygons);
-            let worth = part * cuts.arriving[receiver.index()];
-            let mut rays = 0;
-            let columns = (0_u64..).zip(found.iter()).map(|(number, sender)| {
-                let clear = factors.clear(hull.as_deref(), *sender);
-                let link = Link { sender: *sender, number, clear, worth: worth / cuts.brightness[sender.index()] };
-                let factor = |patch: &usize| {
-                    let (factor, cast) = factors.factor(*patch, &link);
-                    rays += u64::from(cast);
-                    factor as f32
-                };
-                (*sender, members.iter().map(factor).collect())
-            });
-            let block = Block::new(*receiver, members.len(), columns);
-            progress(all.len());
-            (block, rays)
-        };
-        let built: Vec<(Block, u64)> = self.receivers.par_iter().map_init(Vec::new, build).collect();
-        self.gathered(built)
+        seed: u64,
+        hooks: (impl Fn(usize) + Sync, impl Fn() -> bool + Sync),
+    ) -> Result<Hierarchical, Kept> {
+        let Kept { digest, light, blocks, rays } = kept;
+        let mut known = vec![None; self.receivers.len()];
+        for (receiver, block) in blocks {
+            hooks.0(block.patches());
+            known[receiver as usize] = Some((block, 0));
+        }
+        let built = self.built(&Work { light: &light, part, seed, most: TOGETHER }, known, hooks);
+        let rays = rays + built.iter().flatten().map(|(_, rays)| rays).sum::<u64>();
+        if built.iter().any(Option::is_none) {
+            let blocks = (0..).zip(built).filter_map(|(receiver, built)| Some((receiver, built?.0)));
+            return Err(Kept { digest, light, blocks: blocks.collect(), rays });
+        }
+        let mut operator = self.gathered(built.into_iter().flatten());
+        operator.statistics.rays = rays;
+        Ok(operator)
     }
 
-    fn gathered(&self, built: Vec<(Block, u64)>) -> Hierarchical {
-        let rays = built.iter().map(|(_, rays)| rays).sum();
-        let blocks: Vec<Block> = built.into_iter().map(|(block, _)| block).collect();
+    /// What is known of each receiver, and the rest; none where `stops` said so.
+    fn built(
+        &self,
+        work: &Work<'_>,
+        known: Vec<Option<(Block, u64)>>,
+        (progress, stops): (impl Fn(usize) + Sync, impl Fn() -> bool + Sync),
+    ) -> Vec<Option<(Block, u64)>> {
+        let means = self.means(work.light);
+        let (cuts, factors) = (self.cuts(&means, work.part), self.factors(work.seed));
+        let build = |found: &mut Vec<Cluster>, (known, receiver): (Option<(Block, u64)>, &Cluster)| {
+            if known.is_some() || stops() {
+                return known;
+            }
+            let built = self.block(*receiver, (&cuts, &factors), work, found);
+            progress(self.clusters.tree.range(*receiver).len());
+            Some(built)
+        };
+        known.into_par_iter().zip(&self.receivers).map_init(Vec::new, build).collect()
+    }
+
+    fn block(
+        &self,
+        receiver: Cluster,
+        (cuts, factors): (&Cuts<'_>, &Factors<'_>),
+        work: &Work<'_>,
+        found: &mut Vec<Cluster>,
+    ) -> (Block, u64) {
+        cuts.of(receiver, found);
+        let members = self.clusters.tree.members(receiver);
+        let members = &members[..members.len().min(work.most)];
+        let hull = self.clusters.hull(receiver, &self.patches.polygons);
+        let worth = work.part * cuts.arriving[receiver.index()];
+        let mut rays = 0;
+        let columns = (0_u64..).zip(found.iter()).map(|(number, sender)| {
+            let clear = factors.clear(hull.as_deref(), *sender);
+            let link =
+                Link { sender: *sender, number, clear, worth: worth / cuts.brightness[sender.index()] };
+            let factor = |patch: &usize| {
+                let (factor, cast) = factors.factor(*patch, &link);
+                rays += u64::from(cast);
+                factor as f32
+            };
+            (*sender, members.iter().map(factor).collect())
+        });
+        (Block::new(receiver, members.len(), columns), rays)
+    }
+
+    /// The receiver of a number.
+    pub(super) fn receiver(&self, number: u32) -> Option<Cluster> {
+        self.receivers.get(number as usize).copied()
+    }
+
+    fn gathered(&self, built: impl Iterator<Item = (Block, u64)>) -> Hierarchical {
+        let (blocks, rays): (Vec<Block>, Vec<u64>) = built.unzip();
+        let rays = rays.iter().sum();
         let tree = &self.clusters.tree;
         let mut order_of = vec![0; tree.order().len()];
         tree.order().iter().zip(0..).for_each(|(patch, place)| order_of[*patch] = place);
@@ -167,7 +241,11 @@ impl<'a, V: Value> Plan<'a, V> {
             bytes: blocks.iter().map(Block::bytes).sum::<u64>() + self.tree_bytes(),
         };
         Hierarchical {
-            places: Hierarchical::places(&blocks, |receiver| tree.members(receiver).to_vec(), self.patches.len()),
+            places: Hierarchical::places(
+                &blocks,
+                |receiver| tree.members(receiver).to_vec(),
+                self.patches.len(),
+            ),
             clusters: Arc::clone(&self.clusters),
             blocks,
             areas: self.patches.areas.clone(),

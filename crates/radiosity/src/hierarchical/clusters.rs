@@ -31,8 +31,8 @@ pub(super) struct Whole {
 impl Whole {
     fn of_patch(polygon: &Polygon) -> Self {
         let corners = polygon.vertices().iter();
-        let (low, high) =
-            corners.fold((DVec3::MAX, DVec3::MIN), |(low, high): (DVec3, DVec3), v| (low.min(*v), high.max(*v)));
+        let (low, high) = corners
+            .fold((DVec3::MAX, DVec3::MIN), |(low, high): (DVec3, DVec3), v| (low.min(*v), high.max(*v)));
         Self {
             centre: polygon.centroid(),
             front: polygon.normal() * polygon.area(),
@@ -99,7 +99,12 @@ impl Whole {
         let v = n.cross(u);
         let (a, b) = (u * self.reach(u), v * self.reach(v));
         let corner = |s: f64, t: f64| self.middle + s * a + t * b;
-        Some(Polygon::quadrilateral(corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)))
+        Some(Polygon::quadrilateral(
+            corner(-1.0, -1.0),
+            corner(1.0, -1.0),
+            corner(1.0, 1.0),
+            corner(-1.0, 1.0),
+        ))
     }
 
     /// How far apart the boxes are.

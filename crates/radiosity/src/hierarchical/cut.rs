@@ -53,7 +53,9 @@ impl Cuts<'_> {
                 continue;
             }
             match self.clusters.tree.children(cluster) {
-                Some([a, b]) if energy > most || unlike > WRONG * most || (energy > WRONG * most && !is_far()) => {
+                Some([a, b])
+                    if energy > most || unlike > WRONG * most || (energy > WRONG * most && !is_far()) =>
+                {
                     stack.extend([b, a]);
                 }
                 _ => found.push(cluster),
@@ -67,8 +69,7 @@ impl Cuts<'_> {
             return false;
         }
         let blocker = self.visibility.blocker(here.middle, there.middle);
-        blocker.is_some_and(|id| {
-            self.visibility.certainly_blocks_hulls(id, &here.corners(), &there.corners())
-        })
+        blocker
+            .is_some_and(|id| self.visibility.certainly_blocks_hulls(id, &here.corners(), &there.corners()))
     }
 }

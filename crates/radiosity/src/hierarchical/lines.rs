@@ -12,7 +12,11 @@ const TOGETHER: usize = 8192;
 
 impl Hierarchical {
     /// Patch by patch: the block that it receives in, and its place there.
-    pub(super) fn places(blocks: &[Block], members: impl Fn(Cluster) -> Vec<usize>, patches: usize) -> Vec<(u32, u32)> {
+    pub(super) fn places(
+        blocks: &[Block],
+        members: impl Fn(Cluster) -> Vec<usize>,
+        patches: usize,
+    ) -> Vec<(u32, u32)> {
         let mut places = vec![(0, 0); patches];
         for (number, block) in (0..).zip(blocks) {
             for (place, patch) in (0..).zip(members(block.receiver())) {
@@ -87,7 +91,8 @@ impl Columns for Hierarchical {
         buffer.resize(self.areas.len(), 0.0);
         let place = self.order_of[j] as usize;
         for block in &self.blocks {
-            let Some((sender, column)) = block.column_with(|sender| self.clusters.tree.range(sender), place) else {
+            let Some((sender, column)) = block.column_with(|sender| self.clusters.tree.range(sender), place)
+            else {
                 continue;
             };
             let part = self.areas[j] / self.clusters.whole(sender).area;

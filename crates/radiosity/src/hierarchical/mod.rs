@@ -12,10 +12,12 @@ mod clusters;
 mod cut;
 mod error;
 mod factor;
+mod kept;
 mod lines;
 
 pub use build::{Light, Plan};
 pub use error::Judged;
+pub use kept::{Kept, KeptError};
 
 use block::Block;
 use clusters::Clusters;
@@ -59,6 +61,11 @@ impl Hierarchical {
     /// How large it is.
     pub fn statistics(&self) -> &Statistics {
         &self.statistics
+    }
+
+    /// All its links, to go on with another time.
+    pub fn into_kept(self, digest: u64, light: Light) -> Kept {
+        Kept { digest, light, blocks: (0..).zip(self.blocks).collect(), rays: self.statistics.rays }
     }
 
     /// `out` = F̃ u.

@@ -194,8 +194,8 @@ pub fn size_for_count<V: Value>(scene: &Scene<V>, count: usize) -> f64 {
     low
 }
 
-/// How many patches a size makes.
-fn count_for_size<V: Value>(scene: &Scene<V>, size: f64) -> f64 {
+/// How many patches a size makes, in metres.
+pub fn count_for_size<V: Value>(scene: &Scene<V>, size: f64) -> f64 {
     let polygons = scene.surfaces.iter().flat_map(|s| &s.polygons);
     polygons.map(|p| Divisions::of(p, size).count()).sum()
 }

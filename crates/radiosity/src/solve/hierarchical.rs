@@ -1,10 +1,10 @@
 //! F as links to clusters: a sketch tells how bright patches are, then there are the links that this brightness needs.
 
 use super::{Observer, Run, SAMPLED_ROWS, Solution, SolveError, spread};
-use crate::hierarchical::{Judged, Light, Plan, Statistics};
+use crate::hierarchical::{Judged, Kept, Light, Plan, Statistics};
 use fredholm::krylov::Gmres;
 use fredholm::operator::Operator;
-use fredholm::relax::{Relaxation, Stop, relax};
+use fredholm::relax::{Outcome, Relaxation, Stop, relax};
 use fredholm::system::System;
 use fredholm::value::{Value, max_norm};
 use std::time::Instant;
@@ -39,21 +39,32 @@ impl<V: Value> Run<'_, V> {
         let start = Instant::now();
         let part = (PART * self.options.accuracy).min(MOST);
         let plan = Plan::new(self.patches, self.visibility);
-        let light = self.sketched(&plan, part)?;
-        let planned_bytes = plan.bytes(&light, part);
+        let kept = match observer.kept() {
+            Some(mut file) => Kept::read(&plan, part, self.source, &mut file)?,
+            None => Kept::none(&plan, self.sketched(&plan, part)?, part, self.source),
+        };
+        let patches = self.patches.len();
+        let planned_bytes = plan.bytes(kept.light(), part);
         if planned_bytes > self.options.memory {
-            let (patches, available) = (self.patches.len(), self.options.memory);
+            let available = self.options.memory;
             return Err(SolveError::Links { patches, needed: planned_bytes, available });
         }
         observer.planned(planned_bytes);
         // A bar counts the entries of a matrix.
-        let row = self.patches.len().div_ceil(2);
-        let operator = plan.assemble(&light, part, SEEDS[1], |patches| observer.assembled(patches * row));
+        let row = patches.div_ceil(2);
+        let hooks = (|patches: usize| observer.assembled(patches * row), || observer.stops());
+        let light = kept.light().clone();
+        let interrupted = |kept: Kept| SolveError::Interrupted { patches, kept: Box::new(kept) };
+        let operator = plan.go_on(kept, part, SEEDS[1], hooks).map_err(interrupted)?;
         let assembly_seconds = start.elapsed().as_secs_f64();
         let start = Instant::now();
         let system = System::new(self.source, self.reflectance, &operator)?;
         let mut relaxation = self.relaxation(system);
         let report = self.relax(&mut *relaxation, observer)?;
+        if report.outcome == Outcome::Interrupted && observer.stops() {
+            drop(relaxation);
+            return Err(interrupted(operator.into_kept(plan.digest(part, self.source), light)));
+        }
         let mut irradiance = vec![V::splat(0.0); self.source.len()];
         operator.apply(&relaxation.solution(), &mut irradiance);
         let checked = spread(self.source.len(), SAMPLED_ROWS);

@@ -82,7 +82,7 @@ fn walk(file: &Path, given: &ThermalScene, args: &Radiosity, start: Instant) -> 
         );
     }
     let mut seconds = Seconds { load: start.elapsed().as_secs_f64(), ..Seconds::default() };
-    let settings = Settings::new(args, &without_method(solve), file)?;
+    let settings = Settings::new(args, &without_method(solve), scene, file)?;
     let Outputs { picture, patches: table, json, .. } = Outputs::prepare(args, &scene.name)?;
     let domain = Domain::new(scene, settings.size(scene), &mut seconds)?;
     let accuracy = settings.options(domain.patches.len()).accuracy;

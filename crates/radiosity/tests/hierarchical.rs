@@ -1,0 +1,135 @@
+//! Links to clusters against the matrix that they stand for.
+
+use fredholm::operator::{Columns, Matrix, Operator, Rows, TransposedOperator};
+use fredholm::value::{Rgb, Value};
+use radiosity::hierarchical::{Hierarchical, Light, Plan};
+use radiosity::patches::{Patches, size_for_count};
+use radiosity::scene::{Scene, cornell_box};
+use radiosity::solve::{Options, Solution, Solver, Storage, Unobserved, solve};
+use radiosity::visibility::Visibility;
+
+#[expect(dead_code, reason = "the benchmark has scenes of all sizes")]
+#[path = "../benches/scenes/mod.rs"]
+mod scenes;
+
+fn cut(scene: &Scene<Rgb>, count: usize) -> (Patches<Rgb>, Visibility) {
+    (Patches::new(scene, size_for_count(scene, count)).unwrap(), Visibility::new(&scene.polygons()))
+}
+
+fn linked(patches: &Patches<Rgb>, visibility: &Visibility, part: f64) -> Hierarchical {
+    let light = Light::ambient(patches, &patches.emission);
+    Plan::new(patches, visibility).assemble(&light, part, 7, |_| ())
+}
+
+fn solved(patches: &Patches<Rgb>, visibility: &Visibility, storage: Storage, accuracy: f64) -> Solution<Rgb> {
+    let options = Options { storage, accuracy, solver: Solver::Gmres, ..Options::default() };
+    solve(patches, visibility, &options, &mut Unobserved).unwrap()
+}
+
+/// ‖u − v‖ / ‖v‖ in L².
+fn distance(patches: &Patches<Rgb>, u: &[Rgb], v: &[Rgb]) -> f64 {
+    let square = |x: Rgb| x.channels().iter().map(|c| c * c).sum::<f64>();
+    let norm = |of: &dyn Fn(usize) -> f64| (0..v.len()).map(|i| patches.areas[i] * of(i)).sum::<f64>().sqrt();
+    norm(&|i| square(u[i] - v[i])) / norm(&|i| square(v[i]))
+}
+
+#[test]
+fn links_bring_what_the_matrix_brings_within_the_error_that_they_tell() {
+    for (scene, count) in [
+        (cornell_box(), 1500),
+        (scenes::boxes(), 2500),
+        (scenes::terrain(1500), 1500),
+        (scenes::building(2), 1500),
+    ] {
+        let (patches, visibility) = cut(&scene, count);
+        let dense = solved(&patches, &visibility, Storage::Dense, 3e-4);
+        for accuracy in [3e-3, 3e-4] {
+            let found = solved(&patches, &visibility, Storage::Hierarchical, accuracy);
+            let told = found.links.unwrap().judged.links;
+            let error = distance(&patches, &found.radiosity, &dense.radiosity);
+            println!("{} {accuracy}: {error:.2e} told {told:.2e}, {} links", scene.name, found.form_factors);
+            assert!(error < told && told < 5.0 * accuracy, "{} {accuracy}: {error} of {told}", scene.name);
+        }
+    }
+}
+
+#[test]
+fn rows_columns_and_both_actions_are_of_one_matrix() {
+    let (patches, visibility) = cut(&cornell_box(), 400);
+    let operator = linked(&patches, &visibility, 0.3);
+    let n = operator.dim();
+    let mut buffer = Vec::new();
+    let rows: Vec<Vec<f64>> = (0..n).map(|i| operator.row(i, &mut buffer).iter().collect()).collect();
+    let (mut image, mut shot) = (vec![0.0; n], vec![0.0; n]);
+    let u: Vec<f64> = (0..n).map(|i| (0.37 * i as f64).sin()).collect();
+    operator.apply(&u, &mut image);
+    operator.apply_transposed(&u, &mut shot);
+    let close = |a: f64, b: f64| (a - b).abs() < 1e-12;
+    for i in 0..n {
+        assert_eq!(rows[i][i], operator.diagonal(i));
+        assert!(close(image[i], rows[i].iter().zip(&u).map(|(f, u)| f * u).sum()));
+        assert!(close(shot[i], (0..n).map(|k| rows[k][i] * u[k]).sum()));
+        let column: Vec<f64> = operator.column(i, &mut buffer).iter().collect();
+        assert!((0..n).all(|k| close(column[k], rows[k][i])));
+    }
+    // A cluster sends by area: patches of unlike areas are among them.
+    assert!(
+        rows.iter().flatten().filter(|factor| **factor > 0.0).count() as u64 > operator.statistics().links
+    );
+}
+
+#[test]
+fn the_same_digits_come_from_any_number_of_threads() {
+    let (patches, visibility) = cut(&scenes::building(2), 1000);
+    let sums = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let operator = linked(&patches, &visibility, 0.1);
+            let (mut image, mut shot) = (vec![0.0; patches.len()], vec![0.0; patches.len()]);
+            operator.apply(&patches.areas, &mut image);
+            operator.apply_transposed(&patches.areas, &mut shot);
+            (image, shot)
+        })
+    };
+    assert_eq!(sums(1), sums(3));
+}
+
+#[test]
+fn in_an_empty_room_rows_add_up_to_one_without_a_ray() {
+    let mut scene = scenes::building(1);
+    scene.surfaces.truncate(1);
+    scene.surfaces[0].emission = Rgb::splat(1.0);
+    let (patches, visibility) = cut(&scene, 3000);
+    let operator = linked(&patches, &visibility, 0.03);
+    let mut sums = vec![0.0; patches.len()];
+    operator.apply(&vec![1.0; patches.len()], &mut sums);
+    let worst = sums.iter().map(|sum| (sum - 1.0).abs()).fold(0.0, f64::max);
+    assert!(worst < 0.02 && operator.statistics().rays == 0, "{worst}");
+    // B = E / (1 − ρ) of a furnace.
+    let found = solved(&patches, &visibility, Storage::Hierarchical, 3e-4);
+    let furnace = vec![Rgb::splat(1.0 / 0.3); patches.len()];
+    let error = distance(&patches, &found.radiosity, &furnace);
+    assert!(error < 0.01, "{error}");
+}
+
+#[test]
+fn four_times_the_patches_have_little_more_than_four_times_the_links() {
+    for scene in [cornell_box(), scenes::building(2)] {
+        let links = |count: usize| {
+            let (patches, visibility) = cut(&scene, count);
+            linked(&patches, &visibility, 0.3).statistics().links as f64 / patches.len() as f64
+        };
+        let growth = links(8000) / links(2000);
+        assert!(growth < 1.4, "{}: {growth}", scene.name);
+    }
+}
+
+#[test]
+fn memory_is_known_before_it_is_taken() {
+    let (patches, visibility) = cut(&scenes::boxes(), 4000);
+    let plan = Plan::new(&patches, &visibility);
+    let light = Light::ambient(&patches, &patches.emission);
+    let planned = plan.bytes(&light, 0.1) as f64;
+    let taken = plan.assemble(&light, 0.1, 7, |_| ()).statistics().bytes as f64;
+    assert!((0.7..1.1).contains(&(taken / planned)), "{taken} of {planned}");
+}
