@@ -120,12 +120,13 @@ impl<'a, V: Value> Plan<'a, V> {
         Cuts { clusters: &self.clusters, visibility: self.visibility, brightness, deviation, arriving, part }
     }
 
-    pub(super) fn factors(&self, seed: u64) -> Factors<'_> {
+    pub(super) fn factors(&self, seed: u64, fine: bool) -> Factors<'_> {
         Factors {
             clusters: &self.clusters,
             polygons: &self.patches.polygons,
             visibility: self.visibility,
             seed,
+            fine,
         }
     }
 
@@ -182,7 +183,7 @@ impl<'a, V: Value> Plan<'a, V> {
         (progress, stops): (impl Fn(usize) + Sync, impl Fn() -> bool + Sync),
     ) -> Vec<Option<(Block, u64)>> {
         let means = self.means(work.light);
-        let (cuts, factors) = (self.cuts(&means, work.part), self.factors(work.seed));
+        let (cuts, factors) = (self.cuts(&means, work.part), self.factors(work.seed, false));
         let build = |found: &mut Vec<Cluster>, (known, receiver): (Option<(Block, u64)>, &Cluster)| {
             if known.is_some() || stops() {
                 return known;

@@ -61,7 +61,7 @@ impl<V: Value> Plan<'_, V> {
     fn residuals(&self, source: &[V], u: &[V], light: &Light, part: f64) -> Vec<V> {
         let means = self.means(light);
         let radiosity = self.clusters.means(u);
-        let (cuts, factors) = (self.cuts(&means, part), self.factors(SEED));
+        let (cuts, factors) = (self.cuts(&means, part), self.factors(SEED, true));
         let looked = self.spread();
         let residual = |found: &mut Vec<_>, leaf: &_| {
             cuts.of(*leaf, found);

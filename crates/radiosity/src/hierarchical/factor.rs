@@ -16,6 +16,8 @@ pub(super) struct Factors<'a> {
     pub visibility: &'a Visibility,
     /// Other rays with another one.
     pub seed: u64,
+    /// Whether to take the mean over four points of a patch, in place of its middle, of what comes from clusters.
+    pub fine: bool,
 }
 
 /// Where the patches of a receiver gather from.
@@ -51,7 +53,18 @@ impl Factors<'_> {
         let whole = match self.clusters.patch(link.sender) {
             Some(other) if other == patch => 0.0,
             Some(other) => self.to_patch(patch, other, link.worth),
-            None => self.to_cluster(&self.polygons[patch], link.sender),
+            None if self.fine => {
+                let polygon = &self.polygons[patch];
+                let sum: f64 = QUARTERS
+                    .iter()
+                    .map(|[s, t]| self.to_cluster(polygon.point(*s, *t), polygon.normal(), link.sender))
+                    .sum();
+                sum / QUARTERS.len() as f64
+            }
+            None => {
+                let polygon = &self.polygons[patch];
+                self.to_cluster(polygon.centroid(), polygon.normal(), link.sender)
+            }
         };
         if whole <= 0.0 || link.clear {
             return (whole.max(0.0), 0);
@@ -61,9 +74,8 @@ impl Factors<'_> {
         (whole * clear as f64 / f64::from(rays), rays)
     }
 
-    /// From the middle of a patch to four parts of a cluster, each as one element of area.
-    fn to_cluster(&self, polygon: &Polygon, cluster: Cluster) -> f64 {
-        let (x, n) = (polygon.centroid(), polygon.normal());
+    /// From a point to four parts of a cluster, each as one element of area.
+    fn to_cluster(&self, x: DVec3, n: DVec3, cluster: Cluster) -> f64 {
         let element = |cluster: Cluster| {
             let whole = self.clusters.whole(cluster);
             let between = whole.centre - x;

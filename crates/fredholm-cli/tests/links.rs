@@ -1,0 +1,127 @@
+//! `fredholm radiosity --operator hierarchical`: very many patches, and runs that are interrupted.
+
+#![allow(clippy::unwrap_used, reason = "in a test a panic is the message, in its helpers too")]
+
+mod run;
+
+use run::{folder, fredholm, json, names, text};
+use std::fs;
+use std::process::{Command, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
+
+const LINKED: &str = "radiosity --operator hierarchical --patch-count 1000 --json -";
+
+#[test]
+fn links_and_their_error_are_told() {
+    let folder = folder("links");
+    let output = fredholm(&folder, LINKED);
+    let report = json(&output.stdout);
+    assert_eq!(
+        (report["operator"].as_str(), report["solver"].as_str()),
+        (Some("hierarchical"), Some("gmres"))
+    );
+    let links = &report["links"];
+    assert!((0.001..0.03).contains(&links["error"].as_f64().unwrap()), "{links}");
+    let (bytes, planned) = (links["bytes"].as_f64().unwrap(), links["planned_bytes"].as_f64().unwrap());
+    assert!(bytes > 0.5 * planned && bytes < 1.5 * planned, "{links}");
+    for line in ["links", "clusters", "of the light in the mean square"] {
+        assert!(text(&output.stderr).contains(line), "no `{line}` in: {}", text(&output.stderr));
+    }
+    // What is not said is chosen: a matrix for few patches, links for many.
+    let few = json(&fredholm(&folder, "radiosity --patch-count 300 --json -").stdout);
+    assert_eq!((few["operator"].as_str(), few["links"].is_null()), (Some("dense"), true));
+    let many =
+        json(&fredholm(&folder, "radiosity --patch-count 10000 --factor-accuracy 0.01 --json -").stdout);
+    assert_eq!(many["operator"].as_str(), Some("hierarchical"));
+}
+
+#[test]
+fn all_solvers_and_operators_find_the_same_light() {
+    let folder = folder("operators");
+    let floor = |words: &str| {
+        let output = fredholm(
+            &folder,
+            &format!("radiosity --patch-count 300 --factor-accuracy 3e-4 --json - {words}"),
+        );
+        assert!(output.status.success(), "{words}: {}", text(&output.stderr));
+        json(&output.stdout)["surfaces"][0]["mean_radiosity"][1].as_f64().unwrap()
+    };
+    let dense = floor("--operator dense");
+    for words in [
+        "--operator hierarchical",
+        "--operator hierarchical --solver southwell",
+        "--operator hierarchical --solver gauss-seidel",
+        "--operator hierarchical --solver jacobi",
+        "--operator on-the-fly --solver gmres",
+        "--operator on-the-fly --solver southwell",
+    ] {
+        let found = floor(words);
+        assert!((found / dense - 1.0).abs() < 0.01, "{words}: {found} for {dense}");
+    }
+}
+
+#[test]
+fn a_run_that_is_interrupted_is_gone_on_with_and_finds_the_same() {
+    let folder = folder("checkpoint");
+    let words = "radiosity --operator hierarchical --patch-count 3000 --factor-accuracy 3e-4";
+    let mut run = Command::new(env!("CARGO_BIN_EXE_fredholm"));
+    let run = run.current_dir(&folder).args(words.split(' ')).args([
+        "--threads",
+        "1",
+        "--checkpoint",
+        "half.links",
+    ]);
+    let mut child = run.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    while names(&folder).is_empty() {
+        assert_eq!(child.try_wait().unwrap(), None, "it ended before it could be interrupted");
+        sleep(Duration::from_millis(10));
+    }
+    sleep(Duration::from_millis(500));
+    Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    let output = child.wait_with_output().unwrap();
+    let told = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{told}");
+    assert!(told.contains("of 3008 patches have their links, kept in half.links"), "{told}");
+    assert_eq!(names(&folder), ["half.links"]);
+
+    let solved = |words: &str| json(&fredholm(&folder, words).stdout)["surfaces"].clone();
+    let resumed = solved(&format!("{words} --resume half.links --json -"));
+    assert_eq!(resumed, solved(&format!("{words} --json -")));
+
+    let refused = |words: &str, word: &str| {
+        let output = fredholm(&folder, words);
+        let told = text(&output.stderr);
+        assert!(output.status.code() == Some(1) && told.contains(word), "{words}: {told}");
+    };
+    refused("radiosity --patch-count 1000 --operator hierarchical --resume half.links", "another scene");
+    let whole = fs::read(folder.join("half.links")).unwrap();
+    fs::write(folder.join("cut.links"), &whole[..whole.len() - 1]).unwrap();
+    refused(&format!("{words} --resume cut.links"), "damaged or cut off");
+    let mut flipped = whole.clone();
+    // A digit of the light that the links were made for.
+    flipped[100] ^= 1;
+    fs::write(folder.join("flipped.links"), flipped).unwrap();
+    refused(&format!("{words} --resume flipped.links"), "damaged or cut off");
+    let mut newer = whole;
+    newer[8] = 2;
+    fs::write(folder.join("newer.links"), newer).unwrap();
+    refused(&format!("{words} --resume newer.links"), "version 2");
+}
+
+#[test]
+fn a_checkpoint_that_is_none_or_another_is_refused() {
+    let folder = folder("refused");
+    let refused = |file: &str, word: &str| {
+        let output = fredholm(&folder, &format!("{LINKED} --resume {file}"));
+        let told = text(&output.stderr);
+        assert!(output.status.code() == Some(1) && told.contains(word), "{file}: {told}");
+    };
+    fs::write(folder.join("text.links"), "no links at all").unwrap();
+    refused("text.links", "no checkpoint of fredholm");
+    fs::write(folder.join("empty.links"), "").unwrap();
+    refused("empty.links", "no checkpoint of fredholm");
+    refused("missing.links", "missing.links");
+    let output = fredholm(&folder, "radiosity --operator dense --checkpoint a.links");
+    assert!(text(&output.stderr).contains("--operator hierarchical"), "{}", text(&output.stderr));
+}
