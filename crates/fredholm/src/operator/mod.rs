@@ -40,6 +40,13 @@ pub trait Operator<V>: Matrix {
 pub trait Rows: Matrix {
     /// Row i, a view of what is stored or computed into `buffer`.
     fn row<'a>(&'a self, i: usize, buffer: &'a mut Vec<f64>) -> Line<'a>;
+
+    /// `out` = F u, for [`Operator`]: (F u)_i = row i · u, the rows shared among all cores, unless F has a faster way.
+    fn act<V: Value>(&self, u: &[V], out: &mut [V]) {
+        out.par_iter_mut().enumerate().for_each_init(Vec::new, |buffer, (i, value)| {
+            *value = self.row(i, buffer).dot(u);
+        });
+    }
 }
 
 /// A matrix whose columns can be read: what unknown j shoots to all others.
@@ -50,13 +57,32 @@ pub trait Rows: Matrix {
 pub trait Columns: Matrix {
     /// Column j, computed or gathered into `buffer`.
     fn column<'a>(&'a self, j: usize, buffer: &'a mut Vec<f64>) -> Line<'a>;
+
+    /// `out` = Fᵀ u, for [`TransposedOperator`]: (Fᵀ u)_j = column j · u, unless F has a faster way.
+    fn act_transposed<V: Value>(&self, u: &[V], out: &mut [V]) {
+        out.par_iter_mut().enumerate().for_each_init(Vec::new, |buffer, (j, value)| {
+            *value = self.column(j, buffer).dot(u);
+        });
+    }
 }
 
-/// A matrix with rows has an action: (F u)_i = row i · u, the rows shared among all cores.
+/// A matrix with an action of its transposed, u ↦ Fᵀ u: what the adjoint, and norms, ask for.
+#[diagnostic::on_unimplemented(message = "`{Self}` has no action u ↦ Fᵀ u on values `{V}`")]
+pub trait TransposedOperator<V>: Matrix {
+    /// `out` = Fᵀ u; both have length `dim()`.
+    fn apply_transposed(&self, u: &[V], out: &mut [V]);
+}
+
+/// A matrix with rows has an action.
 impl<V: Value, R: Rows> Operator<V> for R {
     fn apply(&self, u: &[V], out: &mut [V]) {
-        out.par_iter_mut().enumerate().for_each_init(Vec::new, |buffer, (i, value)| {
-            *value = self.row(i, buffer).dot(u);
-        });
+        self.act(u, out);
+    }
+}
+
+/// A matrix with columns has a transposed action.
+impl<V: Value, C: Columns> TransposedOperator<V> for C {
+    fn apply_transposed(&self, u: &[V], out: &mut [V]) {
+        self.act_transposed(u, out);
     }
 }
