@@ -4,9 +4,11 @@
 //! takes its mean over the elements. How F is kept is the business of [`crate::operator`].
 
 mod nystrom;
+mod product_nystrom;
 mod projection;
 
 pub use nystrom::Nystrom;
+pub use product_nystrom::ProductNystrom;
 pub use projection::{Collocation, Galerkin};
 
 use rayon::prelude::*;

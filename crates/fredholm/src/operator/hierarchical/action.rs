@@ -1,15 +1,16 @@
-//! F̃ u in two passes: t_b = Σ q_lᵀ u from all columns, then Σ_b σ_l p_l t_b to all rows; each number of F̃ is read once.
+//! F̃ u: t_b = Σ_l q_lᵀ u and then Σ_l σ_l p_l t_b, block by block; each number of F̃ is read once.
 //!
-//! In both passes a task is a strip, which goes through the blocks that it has places in: nothing is written by two tasks, and
-//! all sums have their order whatever the number of threads.
+//! A task is a strip of the image. It goes through the blocks that it has places in, in their order in memory; of large blocks,
+//! which more strips share, all t_b are found before. Nothing is written by two tasks, and all sums have their order whatever
+//! the number of threads.
 
 use super::Hierarchical;
-use super::block::Block;
-use super::factor::{Factor, Piece};
+use super::block::{Kept, Small};
+use super::factor::Factor;
+use super::large::Large;
 use super::side::Side;
 use crate::value::Value;
 use rayon::prelude::*;
-use std::ops::Range;
 
 /// F̃, or its transposed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,28 +42,26 @@ impl Hierarchical {
         }
     }
 
-    /// σ_l q_lᵀ u, block by block as `self.firsts` has it.
+    /// σ_l q_lᵀ u of the large blocks, one after another as `self.firsts` has it.
     fn moments<V: Value>(&self, way: Way, u: &[V]) -> Vec<V> {
         let from = self.sides(way).0;
         let mut parts = vec![V::splat(0.0); from.moments()];
-        from.split(&mut parts).into_par_iter().enumerate().with_max_len(1).for_each(|(strip, sums)| {
-            let mut sums = sums;
-            for block in from.blocks(strip).map(|number| &self.blocks[number]) {
-                let Some((factor, rank)) = source(block, way) else { continue };
+        from.split(&mut parts).into_par_iter().enumerate().with_max_len(1).for_each(|(strip, mut sums)| {
+            for block in from.blocks(strip).map(|number| &self.large[number]) {
+                let factor = factors(block, way).0;
                 let places = self.strips.part(factor.range(), strip);
-                let (own, rest) = sums.split_at_mut(rank);
+                let (own, rest) = sums.split_at_mut(block.values.len());
                 factor.piece(&places).gather(&u[places], own);
                 sums = rest;
             }
         });
-        let mut moments = vec![V::splat(0.0); self.firsts[self.blocks.len()]];
-        for (number, block) in self.blocks.iter().enumerate() {
-            let Block::LowRank { values, .. } = block else { continue };
+        let mut moments = vec![V::splat(0.0); self.firsts[self.large.len()]];
+        for (number, block) in self.large.iter().enumerate() {
             let own = &mut moments[self.firsts[number]..self.firsts[number + 1]];
             for part in from.parts(number) {
                 own.iter_mut().zip(&parts[*part..]).for_each(|(sum, part)| *sum += *part);
             }
-            own.iter_mut().zip(values).for_each(|(moment, value)| *moment = *moment * *value);
+            own.iter_mut().zip(&block.values).for_each(|(moment, value)| *moment = *moment * *value);
         }
         moments
     }
@@ -70,37 +69,50 @@ impl Hierarchical {
     /// Adds to the values of a strip what all its blocks bring.
     fn receive<V: Value>(&self, way: Way, strip: usize, (u, moments): (&[V], &[V]), image: &mut [V]) {
         let first = self.strips.range(strip).start;
-        let within = |places: &Range<usize>| places.start - first..places.end - first;
         for number in self.sides(way).1.blocks(strip) {
-            let block = &self.blocks[number];
-            match (block, way) {
-                (Block::Dense { entries, columns }, Way::Forward) => {
-                    whole(entries).spread(&u[columns.clone()], &mut image[within(entries.range())]);
-                }
-                (Block::Dense { entries, columns }, Way::Transposed) => {
-                    whole(entries).gather(&u[entries.range().clone()], &mut image[within(columns)]);
-                }
-                (Block::LowRank { left, right, .. }, _) => {
-                    let factor = if way == Way::Forward { left } else { right };
-                    let places = self.strips.part(factor.range(), strip);
-                    let own = &moments[self.firsts[number]..self.firsts[number + 1]];
-                    factor.piece(&places).spread(own, &mut image[within(&places)]);
-                }
-            }
+            let factor = factors(&self.large[number], way).1;
+            let places = self.strips.part(factor.range(), strip);
+            let own = &moments[self.firsts[number]..self.firsts[number + 1]];
+            factor.piece(&places).spread(own, &mut image[places.start - first..places.end - first]);
+        }
+        let mut scratch = Vec::new();
+        let mut add = |block: Small<'_>| {
+            let (from, to) =
+                if way == Way::Forward { (block.columns, block.rows) } else { (block.rows, block.columns) };
+            act(
+                way,
+                block.kept,
+                &u[from.clone()],
+                &mut image[to.start - first..to.end - first],
+                &mut scratch,
+            );
+        };
+        match way {
+            Way::Forward => self.shelves[strip].blocks().for_each(&mut add),
+            Way::Transposed => self.beside(strip).for_each(&mut add),
         }
     }
 }
 
-/// The factor that values come from, and the rank; `None` for a dense block.
-fn source(block: &Block, way: Way) -> Option<(&Factor, usize)> {
-    match (block, way) {
-        (Block::Dense { .. }, _) => None,
-        (Block::LowRank { right, values, .. }, Way::Forward) => Some((right, values.len())),
-        (Block::LowRank { left, values, .. }, Way::Transposed) => Some((left, values.len())),
+/// The factors that values come from and go to.
+fn factors(block: &Large, way: Way) -> (&Factor, &Factor) {
+    match way {
+        Way::Forward => (&block.right, &block.left),
+        Way::Transposed => (&block.left, &block.right),
     }
 }
 
-/// A dense block is of two leaves, and no leaf is in two strips.
-fn whole(entries: &Factor) -> Piece<'_> {
-    entries.piece(entries.range())
+/// `image` += B u, or Bᵀ u.
+fn act<V: Value>(way: Way, block: Kept<'_>, u: &[V], image: &mut [V], moments: &mut Vec<V>) {
+    let (from, values, to) = match (block, way) {
+        (Kept::Dense(entries), Way::Forward) => return entries.spread(u, image),
+        (Kept::Dense(entries), Way::Transposed) => return entries.gather(u, image),
+        (Kept::LowRank { left, values, right }, Way::Forward) => (right, values, left),
+        (Kept::LowRank { left, values, right }, Way::Transposed) => (left, values, right),
+    };
+    moments.clear();
+    moments.resize(values.len(), V::splat(0.0));
+    from.gather(u, moments);
+    moments.iter_mut().zip(values).for_each(|(moment, value)| *moment = *moment * *value);
+    to.spread(moments, image);
 }

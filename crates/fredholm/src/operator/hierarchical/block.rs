@@ -1,54 +1,52 @@
-//! A block as it is kept: D, or Σ_l σ_l p_l q_lᵀ.
+//! A block of F̃: D, or Σ_l σ_l p_l q_lᵀ with σ_l in double precision and those p_l, q_l that need it.
 
-use super::factor::Factor;
+use super::factor::Piece;
+use super::recompress::Singular;
 use std::ops::Range;
 
-/// A block of F̃ over ranges of places.
+/// A block as it is made.
 #[derive(Clone, Debug)]
-pub(super) enum Block {
-    /// All of its entries.
-    Dense {
-        /// The rows' places are those of the factor.
-        entries: Factor,
-        columns: Range<usize>,
-    },
-    /// Singular values and vectors.
-    LowRank { left: Factor, values: Vec<f64>, right: Factor },
+pub(super) struct Made {
+    pub(super) rows: Range<usize>,
+    pub(super) columns: Range<usize>,
+    pub(super) content: Content,
+    /// How many columns of D, or pairs p_l, q_l, are to be kept in double precision; the others follow them.
+    pub(super) full: usize,
 }
 
-impl Block {
-    /// The places of its rows.
-    pub(super) fn rows(&self) -> &Range<usize> {
-        match self {
-            Self::Dense { entries, .. } => entries.range(),
-            Self::LowRank { left, .. } => left.range(),
-        }
-    }
+/// The numbers of a block.
+#[derive(Clone, Debug)]
+pub(super) enum Content {
+    /// D, column after column.
+    Dense(Vec<f64>),
+    LowRank(Singular),
+}
 
-    /// The places of its columns.
-    pub(super) fn columns(&self) -> &Range<usize> {
-        match self {
-            Self::Dense { columns, .. } => columns,
-            Self::LowRank { right, .. } => right.range(),
-        }
-    }
-
-    /// k; `None` for a dense block.
-    pub(super) fn rank(&self) -> Option<usize> {
-        match self {
-            Self::Dense { .. } => None,
-            Self::LowRank { values, .. } => Some(values.len()),
-        }
-    }
-
-    /// Bytes of its numbers, and of what is needed to find them.
+impl Made {
+    /// Bytes that its numbers will be kept in.
     pub(super) fn bytes(&self) -> usize {
-        size_of::<Self>()
-            + match self {
-                Self::Dense { entries, .. } => entries.bytes(),
-                Self::LowRank { left, values, right } => {
-                    left.bytes() + size_of_val(values.as_slice()) + right.bytes()
-                }
+        let (m, n) = (self.rows.len(), self.columns.len());
+        match &self.content {
+            Content::Dense(_) => m * (4 * n + 4 * self.full),
+            Content::LowRank(singular) => {
+                let rank = singular.values.len();
+                8 * rank + (m + n) * (4 * rank + 4 * self.full)
             }
+        }
     }
+}
+
+/// A block of one strip of rows and one of columns, as it is kept.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Small<'a> {
+    pub(super) rows: &'a Range<usize>,
+    pub(super) columns: &'a Range<usize>,
+    pub(super) kept: Kept<'a>,
+}
+
+/// The numbers of a block of one strip of rows and one of columns.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Kept<'a> {
+    Dense(Piece<'a>),
+    LowRank { left: Piece<'a>, values: &'a [f64], right: Piece<'a> },
 }

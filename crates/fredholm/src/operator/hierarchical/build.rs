@@ -1,13 +1,11 @@
 //! A block from a coupling: crosses, recompressed; cut where there would be too many of them; dense where it is small or near.
 
-use super::block::Block;
+use super::block::{Content, Made};
 use super::cluster::{Cluster, ClusterTree};
 use super::cross::{Approximation, Cross};
 use super::entries::Entries;
-use super::factor::Factor;
 use super::partition::{Pair, parts};
 use super::recompress::Singular;
-use super::strips::Strips;
 use crate::discretize::Coupling;
 use crate::operator::NotFinite;
 use std::ops::Range;
@@ -25,13 +23,12 @@ const PACKED: [f64; 2] = [2.0 * f32::EPSILON as f64 / 2.0, f32::EPSILON as f64 /
 pub(super) struct Builder<'a, C, const D: usize> {
     pub(super) entries: &'a Entries<'a, C>,
     pub(super) tree: &'a ClusterTree<D>,
-    pub(super) strips: &'a Strips,
     pub(super) tolerance: f64,
 }
 
 impl<C: Coupling, const D: usize> Builder<'_, C, D> {
     /// The blocks that a block of the partition becomes: mostly one.
-    pub(super) fn build(&self, pair: Pair) -> Result<Vec<Block>, NotFinite> {
+    pub(super) fn build(&self, pair: Pair) -> Result<Vec<Made>, NotFinite> {
         let mut blocks = Vec::new();
         match pair.far {
             true => self.far(pair.rows, pair.columns, &mut blocks)?,
@@ -40,14 +37,22 @@ impl<C: Coupling, const D: usize> Builder<'_, C, D> {
         Ok(blocks)
     }
 
-    fn far(&self, rows: Cluster, columns: Cluster, blocks: &mut Vec<Block>) -> Result<(), NotFinite> {
+    fn far(&self, rows: Cluster, columns: Cluster, blocks: &mut Vec<Made>) -> Result<(), NotFinite> {
         let (places, across) = (self.tree.range(rows), self.tree.range(columns));
         let worthwhile = places.len() * across.len() / (places.len() + across.len());
         let parts = parts(self.tree, rows, columns);
         let most = if parts.is_some() { MOST.min(worthwhile) } else { worthwhile };
         let found = compressed(self.entries, (places.clone(), across.clone()), self.tolerance, most)?;
         match (found, parts) {
-            (Some(singular), _) => blocks.push(self.low_rank((places, across), singular)),
+            (Some(singular), _) => {
+                let full = in_full(&singular.values, self.tolerance);
+                blocks.push(Made {
+                    rows: places,
+                    columns: across,
+                    content: Content::LowRank(singular),
+                    full,
+                });
+            }
             (None, Some(parts)) => {
                 parts.into_iter().try_for_each(|(rows, columns)| self.far(rows, columns, blocks))?;
             }
@@ -56,16 +61,7 @@ impl<C: Coupling, const D: usize> Builder<'_, C, D> {
         Ok(())
     }
 
-    fn low_rank(&self, (rows, columns): (Range<usize>, Range<usize>), singular: Singular) -> Block {
-        let full = in_full(&singular.values, self.tolerance);
-        Block::LowRank {
-            left: Factor::new(rows, singular.left, full, self.strips),
-            right: Factor::new(columns, singular.right, full, self.strips),
-            values: singular.values,
-        }
-    }
-
-    fn dense(&self, rows: Range<usize>, columns: Range<usize>) -> Result<Block, NotFinite> {
+    fn dense(&self, rows: Range<usize>, columns: Range<usize>) -> Result<Made, NotFinite> {
         let (m, n) = (rows.len(), columns.len());
         let (mut numbers, mut row) = (vec![0.0; m * n], vec![0.0; n]);
         for (k, i) in rows.clone().enumerate() {
@@ -73,7 +69,7 @@ impl<C: Coupling, const D: usize> Builder<'_, C, D> {
             row.iter().enumerate().for_each(|(l, entry)| numbers[l * m + k] = *entry);
         }
         let full = if dense_in_full(self.tolerance) { n } else { 0 };
-        Ok(Block::Dense { entries: Factor::new(rows, numbers, full, self.strips), columns })
+        Ok(Made { rows, columns, content: Content::Dense(numbers), full })
     }
 }
 

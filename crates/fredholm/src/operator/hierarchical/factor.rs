@@ -1,8 +1,7 @@
-//! A matrix of m rows and k columns, kept so that its action streams memory: strip after strip, and in a strip column after
-//! column.
+//! A matrix of m rows and k columns, kept so that its action streams memory: strip after strip, and in a strip by tiles.
 
+use super::kernels::{column, gather, in_tiles, row, spread};
 use super::strips::Strips;
-use crate::operator::Line;
 use crate::value::Value;
 use std::ops::Range;
 
@@ -17,21 +16,23 @@ pub(super) struct Factor {
 /// The rows of a factor that are in one strip.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece<'a> {
-    full: &'a [f64],
-    packed: &'a [f32],
+    pub(super) full: &'a [f64],
+    pub(super) packed: &'a [f32],
 }
 
 impl Factor {
     /// From columns one after another, of which the first `full` are kept in double precision.
-    pub(super) fn new(range: Range<usize>, columns: Vec<f64>, full: usize, strips: &Strips) -> Self {
-        let m = range.len();
-        if full * m == columns.len() && strips.of(range.start) == strips.of(range.end - 1) {
-            return Self { range, full: columns, packed: Vec::new() };
+    pub(super) fn new(range: Range<usize>, columns: &[f64], full: usize, strips: &Strips) -> Self {
+        let (first, others) = columns.split_at(full * range.len());
+        let mut factor =
+            Self { full: Vec::with_capacity(first.len()), packed: Vec::with_capacity(others.len()), range };
+        for strip in strips.across(&factor.range) {
+            let places = strips.part(&factor.range, strip);
+            factor.full.extend(in_tiles(&some_rows(first, &factor.range, &places), places.len()));
+            let packed = some_rows(others, &factor.range, &places);
+            factor.packed.extend(in_tiles(&packed, places.len()).map(|number| number as f32));
         }
-        let (first, others) = columns.split_at(full * m);
-        let packed = in_strips(&range, others, strips).map(|number| number as f32).collect();
-        let full = in_strips(&range, first, strips).collect();
-        Self { range, full, packed }
+        factor
     }
 
     /// The places of its rows.
@@ -42,15 +43,6 @@ impl Factor {
     /// Bytes of its numbers.
     pub(super) fn bytes(&self) -> usize {
         size_of_val(self.full.as_slice()) + size_of_val(self.packed.as_slice())
-    }
-
-    /// The sum of the squares of its numbers.
-    pub(super) fn norm2(&self) -> f64 {
-        Line::Full(&self.full)
-            .iter()
-            .chain(Line::Packed(&self.packed).iter())
-            .map(|number| number * number)
-            .sum()
     }
 
     /// The rows at `places`, which are all of its own in one strip.
@@ -66,40 +58,14 @@ impl Factor {
     /// Row `place`, written to `row` (length k).
     pub(super) fn row(&self, place: usize, strips: &Strips, row: &mut [f64]) {
         let places = strips.part(&self.range, strips.of(place));
-        let Piece { full, packed } = self.piece(&places);
-        let in_column = place - places.start;
-        let full = full.chunks_exact(places.len()).map(|column| column[in_column]);
-        let packed = packed.chunks_exact(places.len()).map(|column| f64::from(column[in_column]));
-        row.iter_mut().zip(full.chain(packed)).for_each(|(entry, number)| *entry = number);
+        self.piece(&places).row(place - places.start, places.len(), row);
     }
 }
 
-impl Factor {
-    /// Column `l` of a factor that is in one strip, written to `column`.
-    pub(super) fn column(&self, l: usize, column: &mut [f64]) {
-        let m = self.range.len();
-        let full = self.full.len() / m;
-        let line = match l < full {
-            true => Line::Full(&self.full[l * m..][..m]),
-            false => Line::Packed(&self.packed[(l - full) * m..][..m]),
-        };
-        column.iter_mut().zip(line.iter()).for_each(|(entry, number)| *entry = number);
-    }
-}
-
-/// The numbers of columns over `range`, strip after strip.
-fn in_strips<'a>(
-    range: &Range<usize>,
-    columns: &'a [f64],
-    strips: &Strips,
-) -> impl Iterator<Item = f64> + use<'a> {
-    let (first, m) = (range.start, range.len());
-    let parts: Vec<_> = strips.across(range).map(|strip| strips.part(range, strip)).collect();
-    parts.into_iter().flat_map(move |part| {
-        columns
-            .chunks_exact(m)
-            .flat_map(move |column| column[part.start - first..part.end - first].iter().copied())
-    })
+/// Of columns over `range`, the rows at `places`.
+fn some_rows(columns: &[f64], range: &Range<usize>, places: &Range<usize>) -> Vec<f64> {
+    let rows = places.start - range.start..places.end - range.start;
+    columns.chunks_exact(range.len()).flat_map(|column| &column[rows.clone()]).copied().collect()
 }
 
 impl Piece<'_> {
@@ -112,25 +78,37 @@ impl Piece<'_> {
 
     /// `sums` += Pᵀ u, for k values `sums`.
     pub(super) fn gather<V: Value>(self, u: &[V], sums: &mut [V]) {
-        let (full, packed) = (self.full.chunks_exact(u.len()), self.packed.chunks_exact(u.len()));
-        let lines = full.map(Line::Full).chain(packed.map(Line::Packed));
-        sums.iter_mut().zip(lines).for_each(|(sum, line)| *sum += line.dot(u));
+        let (first, others) = sums.split_at_mut(self.full.len() / u.len());
+        gather(self.full, u, first);
+        gather(self.packed, u, others);
     }
-}
 
-/// Four columns at a time: the image is then read and written once for four numbers from memory.
-fn spread<V: Value, T: Copy + Into<f64>>(columns: &[T], x: &[V], image: &mut [V]) {
-    let m = image.len();
-    let (mut quads, mut values) = (columns.chunks_exact(4 * m), x.chunks_exact(4));
-    for (quad, x) in quads.by_ref().zip(values.by_ref()) {
-        let (a, b) = quad.split_at(2 * m);
-        let ((a, b), (c, d)) = (a.split_at(m), b.split_at(m));
-        for (i, value) in image.iter_mut().enumerate() {
-            let two = x[0] * a[i].into() + x[1] * b[i].into();
-            *value += two + (x[2] * c[i].into() + x[3] * d[i].into());
+    /// Row i of m, written to `line`.
+    pub(super) fn row(self, i: usize, m: usize, line: &mut [f64]) {
+        let full = row(self.full, i, (m, self.full.len() / m)).copied();
+        let packed = row(self.packed, i, (m, self.packed.len() / m)).map(|number| f64::from(*number));
+        line.iter_mut().zip(full.chain(packed)).for_each(|(entry, number)| *entry = number);
+    }
+
+    /// Column l, written to `line`.
+    pub(super) fn column(self, l: usize, line: &mut [f64]) {
+        let m = line.len();
+        let (full, packed) = (self.full.len() / m, self.packed.len() / m);
+        match l.checked_sub(full) {
+            None => line
+                .iter_mut()
+                .zip(column(self.full, l, (m, full)))
+                .for_each(|(entry, number)| *entry = *number),
+            Some(l) => {
+                let numbers = column(self.packed, l, (m, packed));
+                line.iter_mut().zip(numbers).for_each(|(entry, number)| *entry = f64::from(*number));
+            }
         }
     }
-    for (column, x) in quads.remainder().chunks_exact(m).zip(values.remainder()) {
-        image.iter_mut().zip(column).for_each(|(value, number)| *value += *x * (*number).into());
+
+    /// The sum of the squares of its numbers.
+    pub(super) fn norm2(self) -> f64 {
+        let packed = self.packed.iter().map(|number| f64::from(*number));
+        self.full.iter().copied().chain(packed).map(|number| number * number).sum()
     }
 }

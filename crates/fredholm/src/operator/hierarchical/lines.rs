@@ -2,8 +2,8 @@
 
 use super::Hierarchical;
 use super::action::Way;
-use super::block::Block;
-use super::factor::Factor;
+use super::block::{Kept, Small};
+use super::large::Large;
 use crate::operator::{Columns, Line, Matrix, Rows};
 use crate::value::Value;
 
@@ -11,46 +11,58 @@ impl Hierarchical {
     /// Row or column `number`, written to `line`.
     fn line(&self, way: Way, number: usize, line: &mut Vec<f64>) {
         let place = self.place[number];
+        let strip = self.strips.of(place);
         let mut entries = vec![0.0; self.order.len()];
-        let side = if way == Way::Forward { &self.rows } else { &self.columns };
-        for block in side.blocks(self.strips.of(place)).map(|number| &self.blocks[number]) {
-            let range = if way == Way::Forward { block.rows() } else { block.columns() };
-            if range.contains(&place) {
-                self.add_block(way, block, place, &mut entries);
-            }
+        let (side, small): (_, Vec<Small<'_>>) = match way {
+            Way::Forward => (&self.rows, self.shelves[strip].blocks().collect()),
+            Way::Transposed => (&self.columns, self.beside(strip).collect()),
+        };
+        for block in side.blocks(strip).map(|number| &self.large[number]) {
+            self.add_large(way, block, place, &mut entries);
+        }
+        for block in small {
+            add_small(way, block, place, &mut entries);
         }
         line.clear();
         line.extend(self.place.iter().map(|place| entries[*place]));
     }
 
-    /// Adds what one block has of a row or column.
-    fn add_block(&self, way: Way, block: &Block, place: usize, entries: &mut [f64]) {
-        match (block, way) {
-            (Block::Dense { entries: own, columns }, Way::Forward) => {
-                own.row(place, &self.strips, &mut entries[columns.clone()]);
-            }
-            (Block::Dense { entries: own, columns }, Way::Transposed) => {
-                own.column(place - columns.start, &mut entries[own.range().clone()]);
-            }
-            (Block::LowRank { left, values, right }, Way::Forward) => {
-                self.add_product(left, values, right, place, entries);
-            }
-            (Block::LowRank { left, values, right }, Way::Transposed) => {
-                self.add_product(right, values, left, place, entries);
-            }
+    /// Adds what a large block has of a row or column.
+    fn add_large(&self, way: Way, Large { left, values, right }: &Large, place: usize, entries: &mut [f64]) {
+        let (own, other) = if way == Way::Forward { (left, right) } else { (right, left) };
+        if !own.range().contains(&place) {
+            return;
         }
-    }
-
-    /// Σ_l (row of `one`)_l σ_l (column l of `other`).
-    fn add_product(&self, one: &Factor, values: &[f64], other: &Factor, place: usize, entries: &mut [f64]) {
         let mut row = vec![0.0; values.len()];
-        one.row(place, &self.strips, &mut row);
+        own.row(place, &self.strips, &mut row);
         row.iter_mut().zip(values).for_each(|(entry, value)| *entry *= value);
         for strip in self.strips.across(other.range()) {
             let places = self.strips.part(other.range(), strip);
             other.piece(&places).spread(&row, &mut entries[places]);
         }
     }
+}
+
+/// Adds what a small block has of a row or column.
+fn add_small(way: Way, block: Small<'_>, place: usize, entries: &mut [f64]) {
+    let (own, other) = match way {
+        Way::Forward => (block.rows, block.columns),
+        Way::Transposed => (block.columns, block.rows),
+    };
+    if !own.contains(&place) {
+        return;
+    }
+    let (k, entries) = (place - own.start, &mut entries[other.clone()]);
+    let (from, values, to) = match (block.kept, way) {
+        (Kept::Dense(numbers), Way::Forward) => return numbers.row(k, own.len(), entries),
+        (Kept::Dense(numbers), Way::Transposed) => return numbers.column(k, entries),
+        (Kept::LowRank { left, values, right }, Way::Forward) => (left, values, right),
+        (Kept::LowRank { left, values, right }, Way::Transposed) => (right, values, left),
+    };
+    let mut row = vec![0.0; values.len()];
+    from.row(k, own.len(), &mut row);
+    row.iter_mut().zip(values).for_each(|(entry, value)| *entry *= value);
+    to.spread(&row, entries);
 }
 
 impl Matrix for Hierarchical {

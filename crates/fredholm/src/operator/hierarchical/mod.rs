@@ -37,11 +37,14 @@ mod cluster;
 mod cross;
 mod entries;
 mod factor;
+mod kernels;
+mod large;
 mod lines;
 mod options;
 mod partition;
 mod plan;
 mod recompress;
+mod shelf;
 mod side;
 mod statistics;
 mod strips;
@@ -53,8 +56,10 @@ pub use statistics::Statistics;
 
 use crate::discretize::Coupling;
 use crate::operator::NotFinite;
-use block::Block;
+use block::{Kept, Small};
 use entries::Entries;
+use large::Large;
+use shelf::Shelf;
 use side::Side;
 use strips::Strips;
 
@@ -66,8 +71,13 @@ pub struct Hierarchical {
     /// The place of each unknown.
     place: Vec<usize>,
     strips: Strips,
-    blocks: Vec<Block>,
-    /// By block: where its moments begin among those of all; after the last one their number.
+    /// By strip of rows: the blocks of it and one strip of columns.
+    shelves: Vec<Shelf>,
+    /// By strip of columns: the shelves and the numbers of those blocks.
+    beside: Vec<Vec<(u32, u32)>>,
+    /// The other blocks.
+    large: Vec<Large>,
+    /// By large block: where its moments begin among those of all; after the last one their number.
     firsts: Vec<usize>,
     rows: Side,
     columns: Side,
@@ -79,46 +89,80 @@ pub struct Hierarchical {
 struct Parts {
     order: Vec<usize>,
     strips: Strips,
-    blocks: Vec<Block>,
+    shelves: Vec<Shelf>,
+    large: Vec<Large>,
 }
 
 impl Hierarchical {
-    fn new<C: Coupling>(
-        Parts { order, strips, blocks }: Parts,
-        entries: &Entries<'_, C>,
-        tolerance: f64,
-    ) -> Result<Self, NotFinite> {
+    fn new<C: Coupling>(parts: Parts, entries: &Entries<'_, C>, tolerance: f64) -> Result<Self, NotFinite> {
+        let statistics = statistics::statistics(&parts, entries, tolerance)?;
+        let Parts { order, strips, shelves, large } = parts;
         let mut place = vec![0; order.len()];
         order.iter().enumerate().for_each(|(k, number)| place[*number] = k);
         let mut firsts = vec![0];
-        blocks.iter().for_each(|block| firsts.push(firsts[firsts.len() - 1] + block.rank().unwrap_or(0)));
-        let (rows, columns) =
-            (Side::new(&blocks, &strips, Block::rows), Side::new(&blocks, &strips, Block::columns));
-        let diagonal = diagonal(&blocks, &order, &strips);
-        let besides =
-            8 * (order.len() + place.len() + firsts.len() + diagonal.len()) + rows.bytes() + columns.bytes();
-        let statistics =
-            statistics::statistics(&blocks, entries, &strips, tolerance, (order.len(), besides))?;
-        Ok(Self { order, place, strips, blocks, firsts, rows, columns, diagonal, statistics })
+        large.iter().for_each(|block| firsts.push(firsts[firsts.len() - 1] + block.values.len()));
+        let rows = Side::new(&large, &strips, |block| block.left.range());
+        let columns = Side::new(&large, &strips, |block| block.right.range());
+        let (diagonal, beside) = (diagonal(&shelves, &order), beside(&shelves, &strips));
+        let mut operator = Self {
+            order,
+            place,
+            strips,
+            shelves,
+            beside,
+            large,
+            firsts,
+            rows,
+            columns,
+            diagonal,
+            statistics,
+        };
+        operator.statistics.bytes = operator.bytes() as u64;
+        Ok(operator)
     }
 
     /// Sizes, ranks, memory and the estimated error.
     pub fn statistics(&self) -> &Statistics {
         &self.statistics
     }
+
+    /// Bytes of all that is kept.
+    fn bytes(&self) -> usize {
+        let blocks =
+            self.shelves.iter().map(Shelf::bytes).chain(self.large.iter().map(Large::bytes)).sum::<usize>();
+        let beside: usize = self.beside.iter().map(|list| size_of_val(list.as_slice())).sum();
+        let lists = self.order.len() + self.place.len() + self.firsts.len() + self.diagonal.len();
+        blocks + beside + size_of::<usize>() * lists + self.rows.bytes() + self.columns.bytes()
+    }
+
+    /// The small blocks that have columns in a strip.
+    fn beside(&self, strip: usize) -> impl Iterator<Item = Small<'_>> {
+        self.beside[strip].iter().map(|(shelf, k)| self.shelves[*shelf as usize].block(*k as usize))
+    }
 }
 
 /// F̃_ii by unknown: blocks on the diagonal are dense.
-fn diagonal(blocks: &[Block], order: &[usize], strips: &Strips) -> Vec<f64> {
+fn diagonal(shelves: &[Shelf], order: &[usize]) -> Vec<f64> {
     let mut diagonal = vec![0.0; order.len()];
     let mut row = Vec::new();
-    for block in blocks {
-        let Block::Dense { entries, columns } = block else { continue };
+    for Small { rows, columns, kept } in shelves.iter().flat_map(Shelf::blocks) {
+        let Kept::Dense(entries) = kept else { continue };
         row.resize(columns.len(), 0.0);
-        for place in entries.range().clone().filter(|place| columns.contains(place)) {
-            entries.row(place, strips, &mut row);
+        for place in rows.clone().filter(|place| columns.contains(place)) {
+            entries.row(place - rows.start, rows.len(), &mut row);
             diagonal[order[place]] = row[place - columns.start];
         }
     }
     diagonal
+}
+
+/// By strip of columns, which blocks of which shelf are in it.
+fn beside(shelves: &[Shelf], strips: &Strips) -> Vec<Vec<(u32, u32)>> {
+    let mut beside = vec![Vec::new(); strips.len()];
+    for (shelf, blocks) in shelves.iter().enumerate() {
+        for (k, block) in blocks.blocks().enumerate() {
+            beside[strips.of(block.columns.start)].push((shelf as u32, k as u32));
+        }
+    }
+    beside
 }

@@ -1,11 +1,13 @@
 //! What will be done, and what memory it takes, before it is done.
 
-use super::block::Block;
+use super::block::{Content, Made};
 use super::build::{Builder, compressed, dense_in_full, in_full};
 use super::cluster::ClusterTree;
 use super::entries::{Entries, chosen};
+use super::large::Large;
 use super::options::{HierarchicalError, Options};
 use super::partition::{Pair, partition};
+use super::shelf::Shelf;
 use super::strips::Strips;
 use super::{Hierarchical, Parts};
 use crate::discretize::Coupling;
@@ -70,26 +72,57 @@ impl<'a, C: Coupling, const D: usize> Plan<'a, C, D> {
         self.allow(self.bytes)?;
         let strips = Strips::new(&self.tree);
         let entries = Entries::new(self.coupling, self.tree.order());
-        let builder = Builder {
-            entries: &entries,
-            tree: &self.tree,
-            strips: &strips,
-            tolerance: self.options.tolerance,
-        };
+        let builder = Builder { entries: &entries, tree: &self.tree, tolerance: self.options.tolerance };
         let taken = AtomicU64::new(0);
-        let made = self.largest_first().into_par_iter().with_max_len(1).map(|number| {
-            let blocks = builder.build(self.pairs[number])?;
-            let bytes = blocks.iter().map(Block::bytes).sum::<usize>() as u64;
+        let build = |pair: &Pair| -> Result<Vec<Made>, HierarchicalError> {
+            let blocks = builder.build(*pair)?;
+            let bytes = blocks.iter().map(Made::bytes).sum::<usize>() as u64;
             self.allow(taken.fetch_add(bytes, Ordering::Relaxed) + bytes)?;
-            let (rows, columns) = self.span(&self.pairs[number]);
+            let (rows, columns) = self.span(pair);
             progress(rows.len() * columns.len());
-            Ok((number, blocks))
-        });
-        let mut made = made.collect::<Result<Vec<_>, HierarchicalError>>()?;
-        made.sort_unstable_by_key(|(number, _)| *number);
-        let blocks = made.into_iter().flat_map(|(_, blocks)| blocks).collect();
-        let parts = Parts { order: self.tree.order().to_vec(), strips, blocks };
+            Ok(blocks)
+        };
+        let (small, large) = self.tasks(&strips);
+        // The large ones first: then no core waits for the last of them.
+        let large = in_order(large.len(), |k| {
+            let blocks = build(&self.pairs[large[k]])?;
+            Ok(blocks.into_iter().map(|made| kept(made, &strips)).collect::<Vec<_>>())
+        })?;
+        let mut shelves = in_order(strips.len(), |strip| {
+            let mut shelf = Shelf::default();
+            for pair in &small[strip] {
+                build(&self.pairs[*pair])?.into_iter().for_each(|made| shelf.push(made));
+            }
+            shelf.close();
+            Ok(shelf)
+        })?;
+        let mut blocks = Vec::new();
+        for made in large.into_iter().flatten() {
+            match made {
+                Kept::Large(block) => blocks.push(block),
+                Kept::Small(made) => shelves[strips.of(made.rows.start)].push(made),
+            }
+        }
+        let parts = Parts { order: self.tree.order().to_vec(), strips, shelves, large: blocks };
         Ok(Hierarchical::new(parts, &entries, self.options.tolerance)?)
+    }
+
+    /// The numbers of the pairs of one strip of rows and one of columns, by strips of rows; and of the others, from the largest.
+    fn tasks(&self, strips: &Strips) -> (Vec<Vec<usize>>, Vec<usize>) {
+        let (mut small, mut large) = (vec![Vec::new(); strips.len()], Vec::new());
+        for (number, pair) in self.pairs.iter().enumerate() {
+            let (rows, columns) = self.span(pair);
+            match strips.across(&rows).len() == 1 && strips.across(&columns).len() == 1 {
+                true => small[strips.of(rows.start)].push(number),
+                false => large.push(number),
+            }
+        }
+        let size = |number: &usize| {
+            let (rows, columns) = self.span(&self.pairs[*number]);
+            rows.len() + columns.len()
+        };
+        large.sort_by_key(|number| std::cmp::Reverse(size(number)));
+        (small, large)
     }
 
     fn allow(&self, needed: u64) -> Result<(), HierarchicalError> {
@@ -104,24 +137,13 @@ impl<'a, C: Coupling, const D: usize> Plan<'a, C, D> {
         }
     }
 
-    /// The blocks' numbers, those that take longest first: then no core waits for the last one.
-    fn largest_first(&self) -> Vec<usize> {
-        let work = |pair: &Pair| {
-            let (rows, columns) = self.span(pair);
-            rows.len() + columns.len()
-        };
-        let mut numbers: Vec<usize> = (0..self.pairs.len()).collect();
-        numbers.sort_by_key(|number| std::cmp::Reverse(work(&self.pairs[*number])));
-        numbers
-    }
-
     fn span(&self, pair: &Pair) -> Span {
         (self.tree.range(pair.rows), self.tree.range(pair.columns))
     }
 
     /// Bytes of the dense blocks, and of the others by the mean of what a few of their size take for each row and column.
     fn estimate(&self) -> Result<u64, NotFinite> {
-        let overhead = size_of::<Block>() + 4 * size_of::<usize>();
+        let overhead = size_of::<Large>();
         let entry = if dense_in_full(self.options.tolerance) { 8 } else { 4 };
         let (mut bytes, mut sizes) =
             (6 * size_of::<usize>() * self.tree.order().len(), Vec::<Vec<Span>>::new());
@@ -167,4 +189,30 @@ impl<'a, C: Coupling, const D: usize> Plan<'a, C, D> {
             None => (8 * rows.len() * columns.len()) as f64 / (rows.len() + columns.len()) as f64,
         })
     }
+}
+
+/// Where a block will be kept.
+enum Kept {
+    Large(Large),
+    /// Of one strip of rows and one of columns, as parts of a block may be that was cut.
+    Small(Made),
+}
+
+fn kept(made: Made, strips: &Strips) -> Kept {
+    match &made.content {
+        Content::LowRank(singular)
+            if strips.across(&made.rows).len() + strips.across(&made.columns).len() > 2 =>
+        {
+            Kept::Large(Large::new(&made, singular, strips))
+        }
+        _ => Kept::Small(made),
+    }
+}
+
+/// What `task` makes of 0, …, n − 1, on all cores.
+fn in_order<T: Send>(
+    n: usize,
+    task: impl Fn(usize) -> Result<T, HierarchicalError> + Sync,
+) -> Result<Vec<T>, HierarchicalError> {
+    (0..n).into_par_iter().with_max_len(1).map(&task).collect()
 }

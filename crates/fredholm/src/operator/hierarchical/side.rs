@@ -1,24 +1,24 @@
-//! Which blocks a strip of rows or of columns has to do with, and where their moments are.
+//! Which large blocks a strip of rows or of columns has to do with, and where their moments are.
 
-use super::block::Block;
+use super::large::Large;
 use super::strips::Strips;
 use std::ops::Range;
 
-/// The rows of all blocks, or their columns, by strips.
+/// The rows of all large blocks, or their columns, by strips.
 #[derive(Clone, Debug)]
 pub(super) struct Side {
     /// By strip: the blocks that have places in it.
     blocks: Vec<Vec<u32>>,
-    /// By strip: where the moments of its blocks of low rank begin among those of all strips; after the last one their number.
+    /// By strip: where the moments of its blocks begin among those of all strips; after the last one their number.
     starts: Vec<usize>,
-    /// By block, one after another: where the moments of its part in each strip begin. None for dense ones.
+    /// By block, one after another: where the moments of its part in each strip begin.
     parts: Vec<usize>,
     /// By block: where its own begin in `parts`; after the last one their number.
     firsts: Vec<usize>,
 }
 
 impl Side {
-    pub(super) fn new(blocks: &[Block], strips: &Strips, range: impl Fn(&Block) -> &Range<usize>) -> Self {
+    pub(super) fn new(blocks: &[Large], strips: &Strips, range: impl Fn(&Large) -> &Range<usize>) -> Self {
         let mut side = Self {
             blocks: vec![Vec::new(); strips.len()],
             starts: vec![0],
@@ -28,19 +28,16 @@ impl Side {
         for (number, block) in blocks.iter().enumerate() {
             let across = strips.across(range(block));
             across.clone().for_each(|strip| side.blocks[strip].push(number as u32));
-            let moments = if block.rank().is_some() { across.len() } else { 0 };
-            side.firsts.push(side.firsts[number] + moments);
+            side.firsts.push(side.firsts[number] + across.len());
         }
         side.parts = vec![0; side.firsts[blocks.len()]];
         let mut met = vec![0; blocks.len()];
         for strip in 0..strips.len() {
             let mut place = side.starts[strip];
             for number in side.blocks[strip].iter().map(|number| *number as usize) {
-                if let Some(rank) = blocks[number].rank() {
-                    side.parts[side.firsts[number] + met[number]] = place;
-                    met[number] += 1;
-                    place += rank;
-                }
+                side.parts[side.firsts[number] + met[number]] = place;
+                met[number] += 1;
+                place += blocks[number].values.len();
             }
             side.starts.push(place);
         }
