@@ -42,6 +42,7 @@ mod large;
 mod lines;
 mod options;
 mod partition;
+mod picture;
 mod plan;
 mod recompress;
 mod shelf;
