@@ -40,7 +40,7 @@ pub(super) fn spread<V: Value, T: Entry>(numbers: &[T], x: &[V], image: &mut [V]
     for (tile, image) in numbers.chunks(TILE * x.len()).zip(image.chunks_mut(TILE)) {
         match (V::numbers(x), V::numbers_mut(image).and_then(|image| image.try_into().ok())) {
             (Some(x), Some::<&mut [f64; TILE]>(image)) => {
-                by_columns(tile, |first, columns| spread_tile(columns, &x[first..], &mut *image))
+                by_columns(tile, |first, columns| spread_tile(columns, &x[first..], &mut *image));
             }
             _ => {
                 for (column, x) in tile.chunks_exact(image.len()).zip(x) {
@@ -59,7 +59,7 @@ pub(super) fn gather<V: Value, T: Entry>(numbers: &[T], u: &[V], sums: &mut [V])
     for (tile, u) in numbers.chunks(TILE * sums.len()).zip(u.chunks(TILE)) {
         match (V::numbers(u).and_then(|u| u.try_into().ok()), V::numbers_mut(sums)) {
             (Some(u), Some(sums)) => {
-                by_columns(tile, |first, columns| gather_tile(columns, u, &mut sums[first..]))
+                by_columns(tile, |first, columns| gather_tile(columns, u, &mut sums[first..]));
             }
             _ => {
                 for (column, sum) in tile.chunks_exact(u.len()).zip(&mut *sums) {
