@@ -268,7 +268,7 @@ fn on_a_sphere_the_single_layer_has_its_eigenvalues() {
         operator.apply(&u, &mut image);
         let parts = image.iter().zip(&sums).zip(&u).map(|((image, sum), u)| image + (1.0 - sum) * u);
         let error =
-            parts.zip(&u).map(|(image, u)| (image - u / (2.0 * degree + 1.0)).abs()).fold(0.0, f64::max);
+            parts.zip(&u).map(|(image, u)| (image - u / (2 * degree + 1) as f64).abs()).fold(0.0, f64::max);
         assert!(error < 1e-3, "degree {degree}: {error}");
     }
 }
