@@ -236,11 +236,12 @@
 //! 6. [`plane`]: equations on rectangles, triangles and disks
 //! 7. [`value`], [`kernel`]: what φ may be where F is one matrix for all channels, and K
 //! 8. [`discretize`]: what F_ij *is*: Nyström, collocation, Galerkin
-//! 9. [`operator`]: how F is *kept*, and what may be asked of it
+//! 9. [`operator`]: how F is *kept*, and what may be asked of it; [`operator::hierarchical`]: by blocks, where unknowns are
+//!    many
 //! 10. [`system`]: the discrete equation, its residual, the bound of the error
 //! 11. [`relax`], [`krylov`], [`direct`]: solving it; [`neumann`]: the series behind it
 //!
-//! The examples `01_quadrature` to `09_system` go through 1 to 6 in small steps: `cargo run --example 01_quadrature`.
+//! The examples `01_quadrature` to `10_hierarchical` go through 1 to 9 in small steps: `cargo run --example 01_quadrature`.
 //!
 //! Section and equation numbers are those of G. Peyré, *Résolution numérique d'équations intégrales, exemple de la
 //! radiativité*, 2001. The crate `radiosity` is this theory applied to the light in a building.

@@ -51,6 +51,16 @@ pub trait Value:
         self
     }
 
+    /// Values as the numbers that they are, if they are numbers: there is vector code for these.
+    fn numbers(_values: &[Self]) -> Option<&[f64]> {
+        None
+    }
+
+    /// Values as the numbers that they are, to be written.
+    fn numbers_mut(_values: &mut [Self]) -> Option<&mut [f64]> {
+        None
+    }
+
     /// Whether no channel is infinite or NaN.
     fn all_finite(&self) -> bool {
         self.channels().iter().all(|c| c.is_finite())
@@ -68,6 +78,12 @@ impl Value for f64 {
     }
     fn channels_mut(&mut self) -> &mut [f64] {
         std::slice::from_mut(self)
+    }
+    fn numbers(values: &[Self]) -> Option<&[f64]> {
+        Some(values)
+    }
+    fn numbers_mut(values: &mut [Self]) -> Option<&mut [f64]> {
+        Some(values)
     }
 }
 

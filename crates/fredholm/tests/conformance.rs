@@ -1,7 +1,8 @@
 //! One suite that every operator passes: what it stores, what it gathers and what it shoots are the same matrix.
 
 use fredholm::discretize::Coupling;
-use fredholm::operator::{Columns, Dense, NotFinite, OnTheFly, Operator, Rows};
+use fredholm::operator::hierarchical::{Hierarchical, HierarchicalError, Options, Plan};
+use fredholm::operator::{Columns, Dense, NotFinite, OnTheFly, Operator, Rows, TransposedOperator};
 use fredholm::value::{Rgb, Spectrum};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -58,13 +59,27 @@ fn conforms(operator: &(impl Rows + Columns), coupling: &impl Coupling, eps: f64
     let u: Vec<Rgb> = (0..n).map(|j| Spectrum([1.0, j as f64, -2.0 + (j % 3) as f64])).collect();
     let mut image = vec![Spectrum([f64::NAN; 3]); n];
     operator.apply(&u, &mut image);
+    acts(&u, &image, |i, j| coupling.entry(i, j), eps);
+    operator.apply_transposed(&u, &mut image);
+    acts(&u, &image, |i, j| coupling.entry(j, i), eps);
+}
+
+/// Holds where `image` is what the matrix of these entries makes of u, to the relative precision `eps`.
+fn acts(u: &[Rgb], image: &[Rgb], entry: impl Fn(usize, usize) -> f64, eps: f64) {
     for (i, image) in image.iter().enumerate() {
         for channel in 0..3 {
-            let terms = (0..n).map(|j| coupling.entry(i, j) * u[j].0[channel]);
+            let terms = u.iter().enumerate().map(|(j, u)| entry(i, j) * u.0[channel]);
             let (sum, size) = terms.fold((0.0, 0.0), |(s, a), t: f64| (s + t, a + t.abs()));
             assert!((image.0[channel] - sum).abs() <= (eps + 1e-14) * size, "row {i}, channel {channel}");
         }
     }
+}
+
+/// Kept hierarchically, with the numbers of the unknowns for their places, in the order of their last digits.
+fn hierarchical(coupling: &impl Coupling) -> Result<Hierarchical, HierarchicalError> {
+    let points: Vec<[f64; 1]> = (0..coupling.dim()).map(|i| [((i % 7) * 1000 + i) as f64]).collect();
+    let options = Options { tolerance: 1e-14, leaf: 8, ..Options::default() };
+    Plan::new(coupling, &points, options)?.assemble(|_| ())
 }
 
 #[test]
@@ -75,10 +90,12 @@ fn every_operator_keeps_what_the_coupling_says() {
         conforms(&Dense::<f64>::assemble(&lopsided, |_| ()).unwrap(), &lopsided, 1e-15);
         conforms(&Dense::<f32>::assemble(&lopsided, |_| ()).unwrap(), &lopsided, 6e-8);
         conforms(&OnTheFly(lopsided.clone()), &lopsided, 1e-15);
+        conforms(&hierarchical(&lopsided).unwrap(), &lopsided, 1e-11);
         let reciprocal = reciprocal(n);
         conforms(&Dense::<f64>::assemble(&reciprocal, |_| ()).unwrap(), &reciprocal, 1e-14);
         conforms(&Dense::<f32>::assemble(&reciprocal, |_| ()).unwrap(), &reciprocal, 2e-7);
         conforms(&OnTheFly(&reciprocal), &reciprocal, 1e-14);
+        conforms(&hierarchical(&reciprocal).unwrap(), &reciprocal, 1e-11);
     }
 }
 
@@ -110,6 +127,7 @@ fn a_singular_kernel_is_told_with_its_place() {
     }
     let told = Dense::<f64>::assemble(&Singular, |_| ()).unwrap_err();
     assert_eq!(told, NotFinite { row: 3, column: 4, value: f64::INFINITY });
+    assert_eq!(hierarchical(&Singular).unwrap_err(), HierarchicalError::Entry(told));
 }
 
 #[test]
@@ -117,11 +135,14 @@ fn the_same_digits_for_any_number_of_threads() {
     let images = [1, 2, 5].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let matrix = Dense::<f32>::assemble(&reciprocal(150), |_| ()).unwrap();
-            let u: Vec<f64> = (0..150).map(|j| (j as f64).sin()).collect();
-            let mut image = vec![0.0; 150];
-            matrix.apply(&u, &mut image);
-            image
+            let matrix = Dense::<f32>::assemble(&reciprocal(1500), |_| ()).unwrap();
+            let blocks = hierarchical(&reciprocal(1500)).unwrap();
+            let u: Vec<f64> = (0..1500).map(|j| (j as f64).sin()).collect();
+            let mut images = vec![0.0; 3 * 1500];
+            matrix.apply(&u, &mut images[..1500]);
+            blocks.apply(&u, &mut images[1500..3000]);
+            blocks.apply_transposed(&u, &mut images[3000..]);
+            (images, *blocks.statistics())
         })
     });
     assert_eq!(images[0], images[1]);

@@ -27,6 +27,7 @@ examples! {
     spectrum: "../examples/07_spectrum.rs",
     plane: "../examples/08_plane.rs",
     system: "../examples/09_system.rs",
+    hierarchical: "../examples/10_hierarchical.rs",
 }
 
 #[test]

@@ -1,12 +1,15 @@
 //! F_ij = the i-th coefficient of P_n(K u_j): what the number F_ij *is*, for each method of the paper.
 //!
 //! [`Nystrom`] replaces the integral by a rule; [`Collocation`] interpolates K u_j at the nodes; [`Galerkin`]
-//! takes its mean over the elements. How F is kept is the business of [`crate::operator`].
+//! takes its mean over the elements; [`ProductNystrom`] varies the rule where K is singular. How F is kept is the business
+//! of [`crate::operator`].
 
 mod nystrom;
+mod product_nystrom;
 mod projection;
 
 pub use nystrom::Nystrom;
+pub use product_nystrom::ProductNystrom;
 pub use projection::{Collocation, Galerkin};
 
 use rayon::prelude::*;

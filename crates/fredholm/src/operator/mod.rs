@@ -35,7 +35,7 @@ pub trait Operator<V>: Matrix {
 /// A matrix whose rows can be read: what unknown i gathers from all others.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no rows to gather along",
-    note = "Gauss–Seidel updates one unknown from all the others and needs row i of F: keep F `Dense` or `OnTheFly`, or use a method that needs only the action of F (successive approximations, GMRES)"
+    note = "Gauss–Seidel updates one unknown from all the others and needs row i of F: keep F `Dense`, `Hierarchical` or `OnTheFly`, or use a method that needs only the action of F (successive approximations, GMRES)"
 )]
 pub trait Rows: Matrix {
     /// Row i, a view of what is stored or computed into `buffer`.
@@ -52,7 +52,7 @@ pub trait Rows: Matrix {
 /// A matrix whose columns can be read: what unknown j shoots to all others.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no columns to shoot along",
-    note = "Southwell's method sends one unknown's residual to all the others and needs column j of F: keep F `Dense` or `OnTheFly`, or use a method that needs only the action of F (successive approximations, GMRES)"
+    note = "Southwell's method sends one unknown's residual to all the others and needs column j of F: keep F `Dense`, `Hierarchical` or `OnTheFly`, or use a method that needs only the action of F (successive approximations, GMRES)"
 )]
 pub trait Columns: Matrix {
     /// Column j, computed or gathered into `buffer`.

@@ -1,0 +1,218 @@
+//! What will be done, and what memory it takes, before it is done.
+
+use super::block::{Content, Made};
+use super::build::{Builder, compressed, dense_in_full, in_full};
+use super::cluster::ClusterTree;
+use super::entries::{Entries, chosen};
+use super::large::Large;
+use super::options::{HierarchicalError, Options};
+use super::partition::{Pair, partition};
+use super::shelf::Shelf;
+use super::strips::Strips;
+use super::{Hierarchical, Parts};
+use crate::discretize::Coupling;
+use crate::operator::NotFinite;
+use rayon::prelude::*;
+use std::ops::Range;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// The blocks of a hierarchical operator that is not made yet.
+#[derive(Debug)]
+pub struct Plan<'a, C, const D: usize> {
+    coupling: &'a C,
+    options: Options,
+    tree: ClusterTree<D>,
+    pairs: Vec<Pair>,
+    bytes: u64,
+}
+
+/// A part of the matrix that two ranges of places span.
+type Span = (Range<usize>, Range<usize>);
+
+/// Blocks of one size that are looked at, and the rows and columns of each.
+const LOOKS: (usize, usize) = (4, 256);
+
+impl<'a, C: Coupling, const D: usize> Plan<'a, C, D> {
+    /// Plans to keep `coupling`, whose unknown i is at `points[i]` (a node, or the middle of an element).
+    ///
+    /// # Errors
+    ///
+    /// [`HierarchicalError`] where options or points make no sense, or the coupling has an entry that is not finite.
+    pub fn new(coupling: &'a C, points: &[[f64; D]], options: Options) -> Result<Self, HierarchicalError> {
+        options.check()?;
+        if points.len() != coupling.dim() {
+            return Err(HierarchicalError::Sizes { points: points.len(), unknowns: coupling.dim() });
+        }
+        let tree = ClusterTree::new(points, options.leaf)?;
+        let pairs = partition(&tree, options.eta);
+        let mut plan = Self { coupling, options, tree, pairs, bytes: 0 };
+        plan.bytes = plan.estimate()?;
+        Ok(plan)
+    }
+
+    /// An estimate of the bytes that will be taken at most, from the ranks of a few blocks of each size. What is kept in the
+    /// end is told by [`super::Statistics::bytes`].
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
+
+    /// The tree of the unknowns.
+    pub fn tree(&self) -> &ClusterTree<D> {
+        &self.tree
+    }
+
+    /// Makes the operator, on all cores. `progress` is told how many entries of F more are settled, n² in all, from any
+    /// thread.
+    ///
+    /// # Errors
+    ///
+    /// [`HierarchicalError::Memory`] where more is needed than [`Options::memory`] allows: before anything is taken where
+    /// the estimate says so, and else when that much is taken; [`HierarchicalError::Entry`] for an entry that is not finite.
+    pub fn assemble(&self, progress: impl Fn(usize) + Sync) -> Result<Hierarchical, HierarchicalError> {
+        self.allow(self.bytes)?;
+        let strips = Strips::new(&self.tree);
+        let entries = Entries::new(self.coupling, self.tree.order());
+        let builder = Builder { entries: &entries, tree: &self.tree, tolerance: self.options.tolerance };
+        let taken = AtomicU64::new(0);
+        let build = |pair: &Pair| -> Result<Vec<Made>, HierarchicalError> {
+            let blocks = builder.build(*pair)?;
+            let bytes = blocks.iter().map(Made::bytes).sum::<usize>() as u64;
+            self.allow(taken.fetch_add(bytes, Ordering::Relaxed) + bytes)?;
+            let (rows, columns) = self.span(pair);
+            progress(rows.len() * columns.len());
+            Ok(blocks)
+        };
+        let (small, large) = self.tasks(&strips);
+        // The large ones first: then no core waits for the last of them.
+        let large = in_order(large.len(), |k| {
+            let blocks = build(&self.pairs[large[k]])?;
+            Ok(blocks.into_iter().map(|made| kept(made, &strips)).collect::<Vec<_>>())
+        })?;
+        let mut shelves = in_order(strips.len(), |strip| {
+            let mut shelf = Shelf::default();
+            for pair in &small[strip] {
+                build(&self.pairs[*pair])?.into_iter().for_each(|made| shelf.push(made));
+            }
+            shelf.close();
+            Ok(shelf)
+        })?;
+        let mut blocks = Vec::new();
+        for made in large.into_iter().flatten() {
+            match made {
+                Kept::Large(block) => blocks.push(block),
+                Kept::Small(made) => shelves[strips.of(made.rows.start)].push(made),
+            }
+        }
+        let parts = Parts { order: self.tree.order().to_vec(), strips, shelves, large: blocks };
+        Ok(Hierarchical::new(parts, &entries, self.options.tolerance)?)
+    }
+
+    /// The numbers of the pairs of one strip of rows and one of columns, by strips of rows; and of the others, from the largest.
+    fn tasks(&self, strips: &Strips) -> (Vec<Vec<usize>>, Vec<usize>) {
+        let (mut small, mut large) = (vec![Vec::new(); strips.len()], Vec::new());
+        for (number, pair) in self.pairs.iter().enumerate() {
+            let (rows, columns) = self.span(pair);
+            match strips.across(&rows).len() == 1 && strips.across(&columns).len() == 1 {
+                true => small[strips.of(rows.start)].push(number),
+                false => large.push(number),
+            }
+        }
+        let size = |number: &usize| {
+            let (rows, columns) = self.span(&self.pairs[*number]);
+            rows.len() + columns.len()
+        };
+        large.sort_by_key(|number| std::cmp::Reverse(size(number)));
+        (small, large)
+    }
+
+    fn allow(&self, needed: u64) -> Result<(), HierarchicalError> {
+        match self.options.memory {
+            Some(allowed) if needed > allowed => Err(HierarchicalError::Memory {
+                unknowns: self.tree.order().len(),
+                tolerance: self.options.tolerance,
+                needed,
+                allowed,
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    fn span(&self, pair: &Pair) -> Span {
+        (self.tree.range(pair.rows), self.tree.range(pair.columns))
+    }
+
+    /// Bytes of the dense blocks, and of the others by the mean of what a few of their size take for each row and column.
+    fn estimate(&self) -> Result<u64, NotFinite> {
+        let overhead = size_of::<Large>();
+        let entry = if dense_in_full(self.options.tolerance) { 8 } else { 4 };
+        let (mut bytes, mut sizes) =
+            (6 * size_of::<usize>() * self.tree.order().len(), Vec::<Vec<Span>>::new());
+        for pair in &self.pairs {
+            let (rows, columns) = self.span(pair);
+            bytes += overhead;
+            if !pair.far {
+                bytes += entry * rows.len() * columns.len();
+                continue;
+            }
+            let size = (rows.len() + columns.len()).ilog2() as usize;
+            sizes.resize(sizes.len().max(size + 1), Vec::new());
+            sizes[size].push((rows, columns));
+        }
+        let mut work = 0;
+        for (size, spans) in sizes.iter().enumerate().filter(|(_, spans)| !spans.is_empty()) {
+            let looks = (0..LOOKS.0.min(spans.len())).map(|k| &spans[chosen(size as u64, k, spans.len())]);
+            let looks = looks.map(|span| self.bytes_per_line(span)).collect::<Result<Vec<_>, _>>()?;
+            let mean = looks.iter().sum::<f64>() / looks.len() as f64;
+            let lines: usize = spans.iter().map(|(rows, columns)| rows.len() + columns.len()).sum();
+            bytes += (mean * lines as f64) as usize;
+            // While a block is made: crosses and their orthogonal factors, all in double precision.
+            work = (4.0 * mean * (2_usize << size) as f64) as usize;
+        }
+        Ok((bytes + work * rayon::current_num_threads()) as u64)
+    }
+
+    /// What a far block takes for each of its rows and columns, by a part of it that is spread over all of it.
+    fn bytes_per_line(&self, (rows, columns): &Span) -> Result<f64, NotFinite> {
+        let (m, n) = (rows.len().min(LOOKS.1), columns.len().min(LOOKS.1));
+        let spread = |range: &Range<usize>, count: usize, k: usize| {
+            self.tree.order()[range.start + (2 * k + 1) * range.len() / (2 * count)]
+        };
+        let some = (0..m).map(|k| spread(rows, m, k)).chain((0..n).map(|k| spread(columns, n, k)));
+        let order: Vec<usize> = some.collect();
+        let entries = Entries::new(self.coupling, &order);
+        let found = compressed(&entries, (0..m, m..m + n), self.options.tolerance, m * n / (m + n))?;
+        Ok(match found {
+            Some(singular) => {
+                let full = in_full(&singular.values, self.options.tolerance);
+                (4 * full + 4 * singular.values.len()) as f64
+            }
+            None => (8 * rows.len() * columns.len()) as f64 / (rows.len() + columns.len()) as f64,
+        })
+    }
+}
+
+/// Where a block will be kept.
+enum Kept {
+    Large(Large),
+    /// Of one strip of rows and one of columns, as parts of a block may be that was cut.
+    Small(Made),
+}
+
+fn kept(made: Made, strips: &Strips) -> Kept {
+    match &made.content {
+        Content::LowRank(singular)
+            if strips.across(&made.rows).len() + strips.across(&made.columns).len() > 2 =>
+        {
+            Kept::Large(Large::new(&made, singular, strips))
+        }
+        _ => Kept::Small(made),
+    }
+}
+
+/// What `task` makes of 0, …, n − 1, on all cores.
+fn in_order<T: Send>(
+    n: usize,
+    task: impl Fn(usize) -> Result<T, HierarchicalError> + Sync,
+) -> Result<Vec<T>, HierarchicalError> {
+    (0..n).into_par_iter().with_max_len(1).map(&task).collect()
+}
