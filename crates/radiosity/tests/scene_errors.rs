@@ -268,6 +268,15 @@ fn lights() {
             light("intensity = 'bright'", "a.toml:5", &["expected a number or [red, green, blue]"]),
             light("intensity = 1\ndirection = [0, 0, 0]", "a.toml:6", &["direction has no length"]),
             light("intensity = 1\ndirection = [0, nan, 0]", "a.toml:6", &["direction"]),
+            light("intensity = 1\ncone = [10, 20]", "a.toml:6", &["a `cone` and no `direction`"]),
+            light(
+                "intensity = 1\ndirection = [0, 0, -1]\ncone = [30, 20]",
+                "a.toml:7",
+                &["light 1", "whole up to 30", "ends at 20", "less than the second"],
+            ),
+            light("intensity = 1\ndirection = [0, 0, -1]\ncone = [30, 91]", "a.toml:7", &["at most 90"]),
+            light("intensity = 1\ndirection = [0, 0, -1]\ncone = [nan, 20]", "a.toml:7", &["beam"]),
+            light("intensity = 1\ndirection = [0, 0, -1]\ncone = 20", "a.toml:7", &["array"]),
             light("intensity = 1\ncolour = 1", "a.toml:6", &["unknown field `colour`"]),
             light(
                 "intensity = 1\n[[light]]\nposition = [inf, 0, 0]\nflux = 1",
@@ -277,6 +286,43 @@ fn lights() {
             light("flux = 1\n[[light]]\nflux = 1", "a.toml:6", &["missing field `position`"]),
         ],
     );
+    let sun = |rest: &str, place, words| {
+        let mut files = obj("f 1 2 3 4");
+        files.insert(0, ("a.toml", format!("unit = 'm'\nmeshes = ['a.obj']\n{rest}\n")));
+        Case { files, place, words }
+    };
+    check(
+        "sun",
+        &[
+            sun("[sun]", "a.toml:3", &["either an `azimuth` and an `elevation`", "or a `direction`"]),
+            sun("[sun]\nazimuth = 9\nelevation = 9\ndirection = [0, 0, -1]", "a.toml:3", &["either"]),
+            sun("[sun]\ndirection = [0, 0, 0]", "a.toml:4", &["no length"]),
+            sun("[sun]\nazimuth = inf\nelevation = 9", "a.toml:4", &["azimuth", "finite"]),
+            sun("[sun]\nazimuth = 9\nelevation = 91", "a.toml:5", &["elevation", "-90 to 90"]),
+            sun("[sun]\nazimuth = 9\nelevation = 9", "a.toml:3", &["in watts", "`normal_irradiance`"]),
+            sun(
+                "[sun]\nazimuth = 9\nelevation = 9\nnormal_illuminance = 9",
+                "a.toml:6",
+                &["in watts", "`normal_irradiance`"],
+            ),
+            sun(
+                "[sun]\nazimuth = 9\nelevation = 9\nnormal_irradiance = [1, -2, 1]",
+                "a.toml:6",
+                &["normal_irradiance is -2 in channel 2", "not negative"],
+            ),
+            sun("[sun]\nazimut = 9", "a.toml:4", &["unknown field `azimut`"]),
+            sun("up = [0, 0, 0]", "a.toml:3", &["`up` has no direction"]),
+            sun("up = [0, 2, 0]", "a.toml:3", &["along one line", "another `north`"]),
+            sun("north = [0, 0, 1]", "a.toml:3", &["along one line"]),
+        ],
+    );
+    let mut photometric = sun(
+        "[sun]\nazimuth = 9\nelevation = 9\nnormal_irradiance = 9",
+        "a.toml:7",
+        &["is photometric", "`normal_illuminance`"],
+    );
+    photometric.files[0].1.insert_str(0, "units = 'photometric'\n");
+    check("photometric sun", &[photometric]);
     let mut photometric = light("flux = [1, 1, 1]", "a.toml:6", &["one channel", "lm"]);
     photometric.files[0].1.insert_str(0, "units = 'photometric'\n");
     check("photometric light", &[photometric]);

@@ -5,6 +5,7 @@ pub mod args;
 mod domain;
 pub mod frames;
 mod html;
+pub mod lights;
 pub mod memory;
 pub mod outputs;
 mod picture;

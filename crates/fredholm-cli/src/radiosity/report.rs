@@ -1,6 +1,7 @@
 //! The numbers of a run: what `--json` writes and the table shows.
 
 use super::domain::Domain;
+use super::lights::Lights;
 use super::memory;
 use super::settings::Settings;
 use super::timing::Seconds;
@@ -57,8 +58,9 @@ pub struct Report {
     pub accuracy: f64,
     /// Whether no light at all reaches any surface.
     pub dark: bool,
-    /// How many point lights the scene has.
-    pub point_lights: usize,
+    /// What shines beside the surfaces.
+    #[serde(flatten)]
+    pub lights: Lights,
     /// How many polygons are drawn with the normals of a curved surface; the light on them is solved as if they were flat.
     pub smooth_normals: usize,
     /// What the readers did to the mesh.
@@ -180,7 +182,7 @@ impl Report {
             escaping,
             accuracy: options.accuracy,
             dark: solution.irradiance.iter().all(|h| h.magnitude() == 0.0),
-            point_lights: domain.scene.lights.len(),
+            lights: Lights::new(domain.scene, units),
             smooth_normals: domain.scene.curved_polygons(),
             clean_up: CleanUp::default(),
             form_factors: solution.form_factors,

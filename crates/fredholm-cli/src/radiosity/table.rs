@@ -53,9 +53,7 @@ fn lines(report: &Report) -> Vec<(&'static str, String)> {
     if report.unknowns > report.patches {
         lines.insert(1, ("space", space(report)));
     }
-    if report.point_lights > 0 {
-        lines.insert(0, ("point lights", grouped(report.point_lights as u64)));
-    }
+    lines.splice(0..0, report.lights.lines());
     lines.extend(of_mesh(report.smooth_normals, report.clean_up));
     lines.extend(last(report.peak_memory_bytes, report.dark, &report.seconds, &report.files));
     lines

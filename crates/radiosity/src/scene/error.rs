@@ -197,7 +197,7 @@ pub enum Problem {
         /// What it is, as an exitance.
         value: f64,
     },
-    /// A point light that is nowhere, or takes light away.
+    /// A light that is nowhere, shines nowhere, or takes light away.
     #[error("light {number}: {what}")]
     Light {
         /// Which one, counted from 1.
@@ -229,7 +229,7 @@ pub enum Problem {
     /// A scene in which it is night.
     #[error(
         "no surface emits light and no light shines, so the solution is zero; give a material a `radiance` (.toml) or a `Ke` (.mtl), or the \
-         scene a [[light]] (.toml)"
+         scene a [[light]], a [[luminaire]] or a [sun] (.toml)"
     )]
     NoLight,
     /// A surface that exchanges no heat as it is described.

@@ -63,7 +63,7 @@ impl Loaded {
         Scene {
             name: name.clone(),
             surfaces: surfaces.iter().map(surface).collect(),
-            lights: lights.iter().map(|light| light.map(grey)).collect(),
+            lights: lights.iter().map(|light| light.with(grey(light.amount()))).collect(),
             camera: *camera,
         }
     }
