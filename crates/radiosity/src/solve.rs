@@ -1,4 +1,4 @@
-//! Room 6: B = f + ρ ⊙ (F B) with f = E + ρ H of point lights, gathered or shot. A page: every algorithm here is the general theory's.
+//! Room 6: B = f + ρ ⊙ (F B) with f = E + ρ H of what is no surface, gathered or shot. A page: every algorithm here is the general theory's.
 
 mod hierarchical;
 
@@ -205,7 +205,7 @@ impl<V: Value> Observer<V> for Unobserved {
 pub struct Solution<V> {
     /// B = f + ρ ⊙ (F u) for the solver's last u, W/m²: the residual is added to u, as the progressive method does.
     pub radiosity: Vec<V>,
-    /// H, the irradiance of each patch: F u, and what point lights send. W/m².
+    /// H, the irradiance of each patch: F u, and what lights that are no surfaces send. W/m².
     pub irradiance: Vec<V>,
     /// The residual that was to be reached, W/m².
     pub target: f64,
@@ -301,7 +301,7 @@ pub fn solve_elements<V: Value>(
     run.keep(&coupling, &|| coupling.rays(), observer)
 }
 
-/// f = E + ρ H, of the irradiance H from point lights.
+/// f = E + ρ H, of the irradiance H from lights that are no surfaces.
 pub fn source<V: Value>(emission: &[V], reflectance: &[V], lit: &[V]) -> Vec<V> {
     emission.iter().zip(reflectance).zip(lit).map(|((e, rho), h)| *e + *rho * *h).collect()
 }
@@ -310,7 +310,7 @@ struct Run<'a, V> {
     patches: &'a Patches<V>,
     visibility: &'a Visibility,
     options: &'a Options,
-    /// f, its H from point lights, ρ and the area that it stands for, of each unknown.
+    /// f, its H from lights that are no surfaces, ρ and the area that it stands for, of each unknown.
     source: &'a [V],
     lit: &'a [V],
     reflectance: &'a [V],

@@ -9,8 +9,11 @@ use fredholm::value::Value;
 use glam::DVec3;
 use radiosity::adaptive::{Domain, Field, Request, solve};
 use radiosity::form_factor::lambert::point_to_polygon;
+use radiosity::lights::mean_irradiances;
+use radiosity::patches::Patches;
 use radiosity::polygon::Polygon;
-use radiosity::scene::{PointLight, Scene, cut};
+use radiosity::scene::{Distribution, PointLight, Scene, Spot, Sun, cut};
+use radiosity::visibility::Visibility;
 use std::f64::consts::PI;
 
 fn request(accuracy: f64) -> Request {
@@ -242,7 +245,7 @@ fn a_point_light_in_a_cube_is_reflected_as_geometry_says() {
     // CIE 171:2006, TC 5.8: the mean of what is reflected is Φ ρ/(S (1 − ρ)), whatever the shape of a closed room.
     let mut scene = scene([walls(DVec3::ZERO, DVec3::splat(4.0), false).to_vec()], 0.7);
     let position = p(1.0, 2.5, 3.0);
-    scene.lights = vec![PointLight { position, intensity: 10_000.0 / (4.0 * PI), direction: None }];
+    scene.lights = vec![PointLight::uniform(position, 10_000.0 / (4.0 * PI)).into()];
     solved(&scene, 0.01, |field, faces| {
         let parts = field.parts();
         let all: f64 = parts.iter().map(|part| part.irradiance * part.polygon.area()).sum();
@@ -254,6 +257,55 @@ fn a_point_light_in_a_cube_is_reflected_as_geometry_says() {
         let reflected = 10_000.0 * 0.7 / (96.0 * 0.3);
         assert!((0.7..1.3).contains(&((under - straight) / reflected)), "{under}");
         assert_eq!(faces.len(), 6);
+    });
+}
+
+#[test]
+fn a_spot_in_a_cube_loses_nothing() {
+    let mut scene = scene([walls(DVec3::ZERO, DVec3::splat(4.0), false).to_vec()], 0.7);
+    let spot = Spot { direction: p(0.3, -0.2, -1.0).normalize(), inner: 0.3, outer: 0.6 };
+    let distribution = Distribution::Spot(spot);
+    let flux = 1000.0 * distribution.flux_of_unit();
+    scene.lights = vec![PointLight { position: p(1.0, 2.5, 3.0), intensity: 1000.0, distribution }.into()];
+    solved(&scene, 0.01, |field, _| {
+        let all: f64 = field.parts().iter().map(|part| part.irradiance * part.polygon.area()).sum();
+        let expected = flux / (1.0 - 0.7);
+        assert!((all / expected - 1.0).abs() < 0.01, "{all} lm for {expected}");
+    });
+}
+
+#[test]
+fn the_sun_through_a_hole_lights_as_much_as_comes_through() {
+    // A roof of 4 m with a hole of a square metre, over black walls.
+    let mut walls = walls(DVec3::ZERO, DVec3::splat(4.0), false).to_vec();
+    let roof = |x: f64, y: f64, along: f64, across: f64| {
+        parallelogram(p(x, y, 4.0), across * DVec3::Y, along * DVec3::X)
+    };
+    walls.splice(
+        1..2,
+        [
+            roof(0.0, 0.0, 4.0, 1.0),
+            roof(0.0, 2.0, 4.0, 2.0),
+            roof(0.0, 1.0, 1.0, 1.0),
+            roof(2.0, 1.0, 2.0, 1.0),
+        ],
+    );
+    let mut scene = scene([walls], 0.0);
+    let direction = p(0.2, 0.35, -1.0).normalize();
+    scene.lights = vec![Sun { direction, irradiance: 1000.0 }.into()];
+    let expected = -1000.0 * direction.z;
+    let patches = Patches::new(&scene, 0.5).unwrap();
+    let lit = mean_irradiances(&patches, &Visibility::new(&scene.polygons()));
+    let all: f64 = lit.iter().zip(&patches.areas).map(|(h, area)| h * area).sum();
+    // A dozen patches of 0.25 m² lie on the edge, and know their light to some thousandths.
+    assert!((all - expected).abs() < 12.0 * 0.25 * 2e-3 * expected, "{all} W for {expected}");
+    solved(&scene, 0.01, |field, _| {
+        // Under the hole, on the way of the sun, and beside it.
+        let at = |x: f64, y: f64| field.irradiance(0, p(x + 0.8, y + 1.4, 0.0));
+        assert_eq!(
+            [at(1.01, 1.01), at(1.99, 1.5), at(0.99, 1.5), at(1.5, 2.01)],
+            [expected, expected, 0.0, 0.0]
+        );
     });
 }
 

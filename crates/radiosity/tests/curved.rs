@@ -116,14 +116,14 @@ fn a_coarse_ball_has_the_shading_of_a_round_one() {
 
 #[test]
 fn a_point_light_has_no_steps_at_the_edge_of_the_dark_side() {
-    let light = PointLight { position: p(3.0, 0.3, 2.0), intensity: 20.0, direction: None };
+    let light = PointLight::uniform(p(3.0, 0.3, 2.0), 20.0);
     let exact = |n: DVec3| {
         let between = light.position - n;
         20.0 * between.dot(n).max(0.0) / between.length().powi(3)
     };
     let errors = [true, false].map(|smooth| {
         let mut scene = scene([ball(8, smooth)], REFLECTANCE);
-        scene.lights = vec![light];
+        scene.lights = vec![light.clone().into()];
         drawn(&scene).map(|drawn| errors(&scene, &drawn, exact))
     });
     for [smooth, flat] in [[errors[0][0], errors[1][0]], [errors[0][1], errors[1][1]]] {
@@ -160,8 +160,8 @@ fn no_light_comes_through_a_polygon_whose_normals_lean() {
     assert!(point_to_polygon(p(-0.5, 0.0, 0.0), p(0.9, 0.0, 0.4).normalize(), &under) > 0.01);
     let mut scene = scene([vec![leaning], vec![under]], REFLECTANCE);
     scene.surfaces[1].emission = EXITANCE;
-    let light = PointLight { position: p(0.5, 0.0, -0.5), intensity: 5.0, direction: None };
-    scene.lights = vec![light];
+    let light = PointLight::uniform(p(0.5, 0.0, -0.5), 5.0);
+    scene.lights = vec![light.clone().into()];
     for drawn in drawn_from_above(&scene) {
         assert!(drawn.iter().all(|h| *h == 0.0), "{drawn:?}");
     }

@@ -248,6 +248,15 @@ fn the_unit_changes_nothing() {
 }
 
 #[test]
+fn a_sky_is_for_scenes_in_which_all_can_be_asked_what_they_hide() {
+    let many = "f 1 2 3 4\n".repeat(20_001);
+    let mut files = obj(&many);
+    let toml = "unit = 'm'\nmeshes = ['a.obj']\n[sky]\nkind = 'uniform'\nzenith_radiance = 1\n";
+    files.insert(0, ("a.toml", toml.to_owned()));
+    check("many", &[Case { files, place: "a.toml", words: &["20001 polygons", "20000 are the most"] }]);
+}
+
+#[test]
 fn lights() {
     let light = |rest: &str, place, words| {
         let mut files = obj("f 1 2 3 4");
@@ -268,6 +277,15 @@ fn lights() {
             light("intensity = 'bright'", "a.toml:5", &["expected a number or [red, green, blue]"]),
             light("intensity = 1\ndirection = [0, 0, 0]", "a.toml:6", &["direction has no length"]),
             light("intensity = 1\ndirection = [0, nan, 0]", "a.toml:6", &["direction"]),
+            light("intensity = 1\ncone = [10, 20]", "a.toml:6", &["a `cone` and no `direction`"]),
+            light(
+                "intensity = 1\ndirection = [0, 0, -1]\ncone = [30, 20]",
+                "a.toml:7",
+                &["light 1", "whole up to 30", "ends at 20", "less than the second"],
+            ),
+            light("intensity = 1\ndirection = [0, 0, -1]\ncone = [30, 91]", "a.toml:7", &["at most 90"]),
+            light("intensity = 1\ndirection = [0, 0, -1]\ncone = [nan, 20]", "a.toml:7", &["beam"]),
+            light("intensity = 1\ndirection = [0, 0, -1]\ncone = 20", "a.toml:7", &["array"]),
             light("intensity = 1\ncolour = 1", "a.toml:6", &["unknown field `colour`"]),
             light(
                 "intensity = 1\n[[light]]\nposition = [inf, 0, 0]\nflux = 1",
@@ -277,6 +295,72 @@ fn lights() {
             light("flux = 1\n[[light]]\nflux = 1", "a.toml:6", &["missing field `position`"]),
         ],
     );
+    let sun = |rest: &str, place, words| {
+        let mut files = obj("f 1 2 3 4");
+        files.insert(0, ("a.toml", format!("unit = 'm'\nmeshes = ['a.obj']\n{rest}\n")));
+        Case { files, place, words }
+    };
+    check(
+        "sun",
+        &[
+            sun("[sun]", "a.toml:3", &["either an `azimuth` and an `elevation`", "or a `direction`"]),
+            sun("[sun]\nazimuth = 9\nelevation = 9\ndirection = [0, 0, -1]", "a.toml:3", &["either"]),
+            sun("[sun]\ndirection = [0, 0, 0]", "a.toml:4", &["no length"]),
+            sun("[sun]\nazimuth = inf\nelevation = 9", "a.toml:4", &["azimuth", "finite"]),
+            sun("[sun]\nazimuth = 9\nelevation = 91", "a.toml:5", &["elevation", "-90 to 90"]),
+            sun("[sun]\nazimuth = 9\nelevation = 9", "a.toml:3", &["in watts", "`normal_irradiance`"]),
+            sun(
+                "[sun]\nazimuth = 9\nelevation = 9\nnormal_illuminance = 9",
+                "a.toml:6",
+                &["in watts", "`normal_irradiance`"],
+            ),
+            sun(
+                "[sun]\nazimuth = 9\nelevation = 9\nnormal_irradiance = [1, -2, 1]",
+                "a.toml:6",
+                &["normal_irradiance is -2 in channel 2", "not negative"],
+            ),
+            sun("[sun]\nazimut = 9", "a.toml:4", &["unknown field `azimut`"]),
+            sun("up = [0, 0, 0]", "a.toml:3", &["`up` has no direction"]),
+            sun("up = [0, 2, 0]", "a.toml:3", &["along one line", "another `north`"]),
+            sun("north = [0, 0, 1]", "a.toml:3", &["along one line"]),
+        ],
+    );
+    let sky = |rest: &str, place, words| sun(&format!("[sky]\n{rest}"), place, words);
+    check(
+        "sky",
+        &[
+            sky("", "a.toml:3", &["missing field `kind`"]),
+            sky("kind = 'blue'", "a.toml:4", &["no sky of the kind \"blue\"", "\"cie-overcast\""]),
+            sky("kind = 'cie'", "a.toml:4", &["needs a `type` from 1 to 15"]),
+            sky("kind = 'cie'\ntype = 16", "a.toml:5", &["no CIE sky of type 16"]),
+            sky("kind = 'cie'\ntype = -1", "a.toml:5", &["no CIE sky of type -1"]),
+            sky("kind = 'uniform'\ntype = 5", "a.toml:5", &["has no types"]),
+            sky("kind = 'cie'\ntype = 12", "a.toml:4", &["depends on where the sun is", "[sun]"]),
+            sky("kind = 'cie'\ntype = 12\nazimuth = 3\nelevation = -3", "a.toml:4", &["below the horizon"]),
+            sky("kind = 'cie'\ntype = 12\nazimuth = 3", "a.toml:3", &["an `azimuth` and an `elevation`"]),
+            sky("kind = 'uniform'", "a.toml:3", &["`zenith_radiance` or a `horizontal_irradiance`"]),
+            sky(
+                "kind = 'uniform'\nzenith_radiance = 1\nhorizontal_irradiance = 1",
+                "a.toml:3",
+                &["give one of them"],
+            ),
+            sky("kind = 'uniform'\nzenith_luminance = 1", "a.toml:5", &["in watts", "`zenith_radiance`"]),
+            sky("kind = 'uniform'\nzenith_radiance = -1", "a.toml:5", &["zenith_radiance is -1"]),
+            sky("kind = 'uniform'\nhorizontal_irradiance = inf", "a.toml:5", &["is inf", "finite"]),
+            sky("kind = 'uniform'\nground = 1", "a.toml:5", &["unknown field `ground`"]),
+        ],
+    );
+    let mut photometric =
+        sky("kind = 'uniform'\nzenith_radiance = 1", "a.toml:6", &["is photometric", "`zenith_luminance`"]);
+    photometric.files[0].1.insert_str(0, "units = 'photometric'\n");
+    check("photometric sky", &[photometric]);
+    let mut photometric = sun(
+        "[sun]\nazimuth = 9\nelevation = 9\nnormal_irradiance = 9",
+        "a.toml:7",
+        &["is photometric", "`normal_illuminance`"],
+    );
+    photometric.files[0].1.insert_str(0, "units = 'photometric'\n");
+    check("photometric sun", &[photometric]);
     let mut photometric = light("flux = [1, 1, 1]", "a.toml:6", &["one channel", "lm"]);
     photometric.files[0].1.insert_str(0, "units = 'photometric'\n");
     check("photometric light", &[photometric]);

@@ -89,10 +89,7 @@ fn walk<V: Colour>(
 
     let camera =
         scene.camera.unwrap_or_else(|| Camera::automatic(&polygons, &Visibility::new(&polygons), 1.0));
-    let (radiance, irradiance) = match units {
-        Units::Radiometric => ("W/(m² sr)", "W/m²"),
-        Units::Photometric => ("cd/m²", "lx"),
-    };
+    let (radiance, irradiance) = (units.radiance(), units.irradiance());
     let extras = json!({
         "quantity": "radiance that leaves the surface, B/π: emissive texture × emissiveStrength",
         "unit": radiance, "error": bound.total(), "accuracy": accuracy,
@@ -112,8 +109,7 @@ fn walk<V: Colour>(
     }
     files.extend(json.as_ref().and_then(Json::file));
     seconds.total = start.elapsed().as_secs_f64();
-    let mut report =
-        Report::new(scene, accuracy, bound, (args.size, texel), [radiance, irradiance], seconds, files);
+    let mut report = Report::new(scene, accuracy, bound, (args.size, texel), units, seconds, files);
     report.clean_up = clean_up;
     report.dark = lightmap.irradiance.iter().all(|h| h.magnitude() == 0.0);
     json::tell(json, &report, &report.table())?;

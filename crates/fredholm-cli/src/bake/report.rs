@@ -1,11 +1,13 @@
 //! The numbers of a baked scene: what `--json` writes and the table shows.
 
+use crate::radiosity::lights::Lights;
 use crate::radiosity::memory;
 use crate::radiosity::table::{last, of_mesh};
 use crate::radiosity::timing::Seconds;
 use crate::text::{self, percent};
+use fredholm::value::Value;
 use radiosity::adaptive::Bound;
-use radiosity::scene::{CleanUp, Scene};
+use radiosity::scene::{CleanUp, Scene, Units};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -26,6 +28,9 @@ pub struct Report {
     /// The side of a texel on a surface, in metres.
     texel: f64,
     polygons: usize,
+    /// What shines beside the surfaces.
+    #[serde(flatten)]
+    lights: Lights,
     /// Polygons that are lit about the normals of a curved surface.
     smooth_normals: usize,
     /// What the readers did to the mesh.
@@ -41,12 +46,12 @@ pub struct Report {
 
 impl Report {
     /// The numbers of a scene on an atlas of so many texels of some size.
-    pub fn new<V>(
+    pub fn new<V: Value>(
         scene: &Scene<V>,
         accuracy: f64,
         bound: Bound,
         (size, texel): (usize, f64),
-        [radiance_unit, irradiance_unit]: [&'static str; 2],
+        units: Units,
         seconds: Seconds,
         files: Vec<PathBuf>,
     ) -> Self {
@@ -62,11 +67,12 @@ impl Report {
             size,
             texel,
             polygons: scene.surfaces.iter().map(|surface| surface.polygons.len()).sum(),
+            lights: Lights::new(scene, units),
             smooth_normals: scene.curved_polygons(),
             clean_up: CleanUp::default(),
             dark: false,
-            radiance_unit,
-            irradiance_unit,
+            radiance_unit: units.radiance(),
+            irradiance_unit: units.irradiance(),
             seconds,
             peak_memory_bytes: memory::peak(),
             files,
@@ -99,6 +105,7 @@ impl Report {
             ),
             ("texture", format!("radiance B/π, in {}", self.radiance_unit)),
         ];
+        lines.splice(0..0, self.lights.lines());
         lines.extend(of_mesh(self.smooth_normals, self.clean_up));
         lines.extend(last(self.peak_memory_bytes, self.dark, &self.seconds, &self.files));
         format!(

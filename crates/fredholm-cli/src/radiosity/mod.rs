@@ -6,6 +6,7 @@ mod checkpoint;
 mod domain;
 pub mod frames;
 mod html;
+pub mod lights;
 pub mod memory;
 pub mod outputs;
 mod picture;

@@ -1,6 +1,7 @@
 //! The numbers of a run: what `--json` writes and the table shows.
 
 use super::domain::Domain;
+use super::lights::Lights;
 use super::memory;
 use super::settings::Settings;
 use super::timing::Seconds;
@@ -56,14 +57,15 @@ pub struct Report {
     pub closure_defect: Option<f64>,
     /// How many rows were checked.
     pub closure_rows: Option<usize>,
-    /// The share of the light that meets nothing; none in a closed scene.
+    /// The share of the light that meets nothing, or the sky; none in a closed scene.
     pub escaping: Option<f64>,
     /// The standard error that was asked for of a row sum.
     pub accuracy: f64,
     /// Whether no light at all reaches any surface.
     pub dark: bool,
-    /// How many point lights the scene has.
-    pub point_lights: usize,
+    /// What shines beside the surfaces.
+    #[serde(flatten)]
+    pub lights: Lights,
     /// How many polygons are drawn with the normals of a curved surface; the light on them is solved as if they were flat.
     pub smooth_normals: usize,
     /// What the readers did to the mesh.
@@ -221,7 +223,7 @@ impl Report {
             escaping,
             accuracy: options.accuracy,
             dark: solution.irradiance.iter().all(|h| h.magnitude() == 0.0),
-            point_lights: domain.scene.lights.len(),
+            lights: Lights::new(domain.scene, units),
             smooth_normals: domain.scene.curved_polygons(),
             clean_up: CleanUp::default(),
             form_factors: solution.form_factors,

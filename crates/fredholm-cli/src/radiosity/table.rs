@@ -68,9 +68,7 @@ fn lines(report: &Report) -> Vec<(&'static str, String)> {
         let error = format!("{all} of the light in the mean square: patches {patches}, links {links}");
         lines.push(("error", error));
     }
-    if report.point_lights > 0 {
-        lines.insert(0, ("point lights", grouped(report.point_lights as u64)));
-    }
+    lines.splice(0..0, report.lights.lines());
     lines.extend(of_mesh(report.smooth_normals, report.clean_up));
     lines.extend(last(report.peak_memory_bytes, report.dark, &report.seconds, &report.files));
     lines
@@ -148,7 +146,11 @@ fn error_bound(report: &Report) -> String {
 
 fn closure(report: &Report) -> String {
     match (report.escaping, report.closure_defect) {
-        (Some(share), _) => format!("open: {:.1} % of the sight lines leave the scene", 100.0 * share),
+        (Some(share), _) => {
+            let where_to =
+                if report.lights.has_sky() { "end in the sky or under it" } else { "leave the scene" };
+            format!("open: {:.1} % of the sight lines {where_to}", 100.0 * share)
+        }
         (None, Some(defect)) => {
             let rows = grouped(report.closure_rows.unwrap_or(0) as u64);
             let word = format!("form factors of {rows} patches add up to 1 within {defect:.1e}");

@@ -3,25 +3,25 @@
 use fredholm::value::{Rgb, Value};
 use radiosity::lights::mean_irradiances;
 use radiosity::patches::Patches;
-use radiosity::scene::Scene;
+use radiosity::scene::{Light, Scene};
 use radiosity::visibility::Visibility;
 
 /// A part of the source that can be dimmed.
 pub struct Lamp {
     /// What it is called.
     pub name: String,
-    /// The surfaces that emit, by number and in their order; none of a point light.
+    /// The surfaces that emit, by number and in their order; none of what is no surface.
     pub surfaces: Vec<usize>,
-    /// The point lights, by number; none of a surface.
+    /// The lights of the scene that are no surfaces, by number; none of a surface.
     pub points: Vec<usize>,
-    /// What it sends to each patch from points, in the unit of irradiance; empty if it is a surface.
+    /// What these send to each patch, in the unit of irradiance; empty if it is a surface.
     irradiance: Vec<Rgb>,
 }
 
 /// More lamps than this are no use on a page; the rest is dimmed together.
 const MOST: usize = 24;
 
-/// The surfaces that emit, in the order of the scene, then the point lights.
+/// The surfaces that emit, in the order of the scene, then what else shines.
 pub fn lamps(scene: &Scene<Rgb>, patches: &Patches<Rgb>, visibility: &Visibility) -> Vec<Lamp> {
     let emits = |s: &usize| scene.surfaces[*s].emission.magnitude() > 0.0;
     let of_surface = |s: usize| Lamp {
@@ -33,9 +33,12 @@ pub fn lamps(scene: &Scene<Rgb>, patches: &Patches<Rgb>, visibility: &Visibility
     let mut lamps: Vec<Lamp> = (0..scene.surfaces.len()).filter(emits).map(of_surface).collect();
     let mut alone = patches.clone();
     for (k, light) in scene.lights.iter().enumerate() {
-        alone.lights = vec![*light];
+        alone.lights = vec![light.clone()];
         let irradiance = mean_irradiances(&alone, visibility);
-        let name = format!("point light {}", k + 1);
+        let name = match light {
+            Light::Point(_) => format!("{} {}", light.kind(), k + 1),
+            Light::Sun(_) | Light::Sky(_) => light.kind().to_owned(),
+        };
         lamps.push(Lamp { name, surfaces: Vec::new(), points: vec![k], irradiance });
     }
     if lamps.len() > MOST {
@@ -101,10 +104,9 @@ mod tests {
     fn lit() -> Scene<Rgb> {
         let mut scene = cornell_box();
         let floor = scene.polygons()[0].clone();
-        let light = |height: f64, red: f64| PointLight {
-            position: floor.centroid() + floor.normal() * height,
-            intensity: Spectrum([red, 1.0, 2.0]),
-            direction: None,
+        let light = |height: f64, red: f64| {
+            let position = floor.centroid() + floor.normal() * height;
+            PointLight::uniform(position, Spectrum([red, 1.0, 2.0])).into()
         };
         scene.lights = vec![light(0.2, 1.0), light(0.3, 3.0)];
         scene
@@ -129,7 +131,7 @@ mod tests {
     #[test]
     fn many_lamps_are_few_and_none_is_lost() {
         let mut scene = lit();
-        let first = scene.lights[0];
+        let first = scene.lights[0].clone();
         scene.lights.resize(40, first);
         let patches = Patches::new(&scene, 0.5).unwrap();
         let visibility = Visibility::new(&scene.polygons());

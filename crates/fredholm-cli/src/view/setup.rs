@@ -83,7 +83,7 @@ impl Setup {
                 scene.surfaces[s].emission = stage.scene.surfaces[s].emission * *gain;
             }
             for &k in &lamp.points {
-                scene.lights[k].intensity = stage.scene.lights[k].intensity * *gain;
+                scene.lights[k] = stage.scene.lights[k].scaled(*gain);
             }
         }
         let mut patches = stage.patches.clone();
@@ -124,7 +124,7 @@ pub fn grey(scene: &Scene<Rgb>) -> Scene<f64> {
     Scene {
         name: scene.name.clone(),
         surfaces: scene.surfaces.iter().map(surface).collect(),
-        lights: scene.lights.iter().map(|light| light.map(|colour| colour.0[0])).collect(),
+        lights: scene.lights.iter().map(|light| light.with(light.amount().0[0])).collect(),
         camera: scene.camera,
     }
 }

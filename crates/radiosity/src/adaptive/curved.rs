@@ -51,7 +51,7 @@ impl<V: Value> Field<'_, V> {
         let at = on_surface(flat, point, domain.rays(), look.lift);
         let bits = point.to_array().iter().fold(0, |bits, c| bits ^ c.to_bits() as usize);
         let site = Site { point: at.position, normal: at.normal, rotation: Rotation::of(bits) };
-        let direct = look.lamps.irradiance(&site) + lights::irradiance(domain.points(), domain.rays(), &at);
+        let direct = look.lamps.irradiance(&site) + lights::irradiance(domain.lights(), domain.rays(), &at);
         let turned = SurfacePoint { position: point, normal: at.normal };
         let from_parts =
             self.links_from(face, point, &mut look.view).iter().fold(V::splat(0.0), |sum, link| {

@@ -9,7 +9,7 @@ use crate::kernel::SurfacePoint;
 use crate::lights;
 use crate::polygon::Polygon;
 use crate::reconstruct::Lamps;
-use crate::scene::{PointLight, Scene, Surface};
+use crate::scene::{Light, Scene, Surface};
 use crate::visibility::Visibility;
 use fredholm::value::Value;
 use glam::DVec3;
@@ -24,8 +24,8 @@ pub struct Domain<'a, V> {
     emission: Vec<V>,
     /// The faces that emit; none where they are too many to be looked at one by one.
     lamps: Vec<u32>,
-    /// Lights that are points.
-    points: Vec<PointLight<V>>,
+    /// What shines and is no face.
+    lights: Vec<Light<V>>,
     all: Outlooks<'a>,
     outlooks: Vec<OnceLock<Outlook>>,
 }
@@ -66,7 +66,7 @@ impl<'a, V: Value> Domain<'a, V> {
             reflectance: of_faces(|s| s.reflectance),
             lamps: if lamps.len() <= MOST_LAMPS { lamps } else { Vec::new() },
             emission,
-            points: scene.lights.clone(),
+            lights: scene.lights.clone(),
             all: Outlooks::new(faces),
             outlooks: faces.iter().map(|_| OnceLock::new()).collect(),
         })
@@ -109,9 +109,9 @@ impl<'a, V: Value> Domain<'a, V> {
         self.all.rays()
     }
 
-    /// The lights that are points.
-    pub(super) fn points(&self) -> &[PointLight<V>] {
-        &self.points
+    /// What shines and is no face.
+    pub(super) fn lights(&self) -> &[Light<V>] {
+        &self.lights
     }
 
     /// The longest side of the box around the faces, in metres.
@@ -209,16 +209,16 @@ impl<'a, V: Value> Domain<'a, V> {
         tree.nodes.par_iter().zip(known).map_init(View::default, look).collect()
     }
 
-    /// The irradiance at a point of a face straight from the lights that are points, in W/m².
-    pub(super) fn sent_by_points(&self, face: u32, position: DVec3) -> V {
+    /// The irradiance at a point of a face straight from what shines and is no face, in W/m².
+    pub(super) fn sent_by_lights(&self, face: u32, position: DVec3) -> V {
         let at = SurfacePoint { position, normal: self.faces[face as usize].normal() };
-        lights::irradiance(&self.points, self.all.rays(), &at)
+        lights::irradiance(&self.lights, self.all.rays(), &at)
     }
 
-    /// The irradiance that arrives at a point of a face straight from the lamps and from points, in W/m².
+    /// The irradiance that arrives at a point of a face straight from the lamps and from what is no face, in W/m².
     pub(super) fn direct(&self, face: u32, point: DVec3, view: &mut View) -> V {
         let outlook = self.outlook(face);
-        let mut sum = self.sent_by_points(face, point);
+        let mut sum = self.sent_by_lights(face, point);
         view.go(outlook, point);
         for &lamp in &self.lamps {
             let Some(hiders) = outlook.hiders_of(lamp) else { continue };

@@ -5,7 +5,7 @@ mod grid;
 pub(crate) use grid::inverse_bilinear;
 
 use crate::polygon::Polygon;
-use crate::scene::{PointLight, Scene, Surface};
+use crate::scene::{Light, Scene, Surface};
 use fredholm::value::Value;
 use glam::DVec3;
 use grid::{Divisions, Grid};
@@ -24,8 +24,8 @@ pub struct Patches<V> {
     pub emission: Vec<V>,
     /// The index of each patch's surface in the scene.
     pub surface: Vec<u32>,
-    /// The point lights that shine on them.
-    pub lights: Vec<PointLight<V>>,
+    /// The lights that shine on them beside the surfaces.
+    pub lights: Vec<Light<V>>,
     /// Strips of neighbouring patches, in the order of the patches, every patch in one.
     pub strips: Vec<Strip>,
     cuts: Vec<Cut>,

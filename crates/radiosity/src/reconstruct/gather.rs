@@ -71,8 +71,8 @@ impl<V: Value> Gather<'_, V> {
         }
     }
 
-    /// The irradiance straight from lamps and point lights, in W/m², but for that of lamps which are not counted on their
-    /// own.
+    /// The irradiance straight from lamps and from what is no surface, in W/m², but for that of lamps which are not counted
+    /// on their own.
     pub fn direct(&self, site: &Site) -> V {
         let lamps = self.lamps.as_ref().map_or(V::splat(0.0), |lamps| lamps.irradiance(site));
         lamps + self.of_points(site)

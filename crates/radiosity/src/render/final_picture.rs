@@ -2,6 +2,7 @@
 //! by a final gather.
 
 use crate::kernel::SurfacePoint;
+use crate::lights;
 use crate::patches::Patches;
 use crate::polygon::Polygon;
 use crate::reconstruct::{Gather, Lamps, Rotation, Site, on_surface};
@@ -36,7 +37,8 @@ pub fn final_picture<V: Colour>(
     let lighting = Lighting::new(view, scene, patches, visibility, radiosity, &polygons);
     let lit = by_rows(&fragments, |pixel, fragment| lighting.of(fragment, pixel), progress);
     let indirect = smooth(&fragments, &Planes::new(scene), &lit);
-    fragments.resolve(|k| lit[k].direct + indirect[k])
+    let beyond = fragments.beyond(|direction| lights::beyond(&scene.lights, direction).to_rgb());
+    fragments.resolve(|k| lit[k].direct + indirect[k], &beyond)
 }
 
 /// `light` of every fragment, in order.
@@ -200,8 +202,8 @@ mod tests {
         };
         let surfaces =
             vec![surface("floor", 0.5, square(0.0, 1.0)), surface("shade", 0.0, square(1.0, 0.25))];
-        let light = PointLight { position: p(0.0, 0.0, 2.0), intensity: 8.0, direction: None };
-        let scene = Scene { name: "shadow".into(), surfaces, lights: vec![light], camera: None };
+        let light = PointLight::uniform(p(0.0, 0.0, 2.0), 8.0);
+        let scene = Scene { name: "shadow".into(), surfaces, lights: vec![light.into()], camera: None };
         let (patches, visibility) = (Patches::new(&scene, 0.5).unwrap(), Visibility::new(&scene.polygons()));
         // From aside under the shade, at both sides of the edge of its shadow.
         for (x, lit) in [(0.48, false), (0.52, true)] {

@@ -1,8 +1,10 @@
 //! What must hold of a scene, by whichever door it came in: 0 ≤ ρ < 1, 0 ≤ E < ∞, some face, some light.
 
 use super::error::Problem;
-use super::{Camera, PointLight, Scene, Surface};
+use super::{Camera, Distribution, Light, PointLight, Scene, Spot, Surface};
 use fredholm::value::Value;
+use glam::DVec3;
+use std::f64::consts::FRAC_PI_2;
 
 impl<V: Value> Scene<V> {
     /// Checks a scene that was built by hand as the readers check theirs; faces are checked by [`super::cut()`].
@@ -23,17 +25,25 @@ impl<V: Value> Scene<V> {
             return Err(Problem::NoFaces);
         }
         (1..).zip(&self.lights).try_for_each(|(number, given)| light(number, given))?;
+        let polygons: usize = self.surfaces.iter().map(|surface| surface.polygons.len()).sum();
+        let has_sky = self.lights.iter().any(|light| matches!(light, Light::Sky(_)));
+        if has_sky && polygons > MOST_UNDER_A_SKY {
+            return Err(Problem::TooManyUnderASky { polygons, most: MOST_UNDER_A_SKY });
+        }
         self.camera.as_ref().map_or(Ok(()), Camera::check)
     }
 
     pub(super) fn check_light(&self) -> Result<(), Problem> {
         let dark = self.surfaces.iter().all(|surface| surface.emission.magnitude() == 0.0);
-        if dark && self.lights.iter().all(|light| light.intensity.magnitude() == 0.0) {
+        if dark && self.lights.iter().all(|light| light.amount().magnitude() == 0.0) {
             return Err(Problem::NoLight);
         }
         Ok(())
     }
 }
+
+/// From every point it is asked of every polygon what it hides of the sky: of so many that takes a millisecond.
+const MOST_UNDER_A_SKY: usize = 20_000;
 
 fn surface<V: Value>(surface: &Surface<V>) -> Result<(), Problem> {
     let owner = format!("surface `{}`", surface.name);
@@ -59,19 +69,49 @@ pub(super) fn emission<V: Value>(owner: &str, emission: &V) -> Result<(), Proble
     }
 }
 
-/// The point light of a number, counted from 1.
-pub(super) fn light<V: Value>(number: usize, light: &PointLight<V>) -> Result<(), Problem> {
+/// The light of a number, counted from 1.
+pub(super) fn light<V: Value>(number: usize, light: &Light<V>) -> Result<(), Problem> {
+    match light {
+        Light::Point(light) => point_light(number, light),
+        Light::Sun(sun) => {
+            is_direction(number, sun.direction)?;
+            amount_of_light(number, "irradiance", &sun.irradiance)
+        }
+        Light::Sky(sky) => amount_of_light(number, "radiance at the zenith", &sky.zenith),
+    }
+}
+
+fn point_light<V: Value>(number: usize, light: &PointLight<V>) -> Result<(), Problem> {
     let bad = |what: String| Err(Problem::Light { number, what });
     if !light.position.is_finite() {
         return bad("its position must be three finite numbers".to_owned());
     }
-    if light.direction.is_some_and(|direction| !direction.is_normalized()) {
-        return bad("its direction has no length; give a vector, or leave it out".to_owned());
+    match light.distribution {
+        Distribution::Uniform | Distribution::Measured(_) => (),
+        Distribution::Diffuse(direction) => is_direction(number, direction)?,
+        Distribution::Spot(Spot { direction, inner, outer }) => {
+            is_direction(number, direction)?;
+            if !(0.0 <= inner && inner < outer && outer <= FRAC_PI_2) {
+                let [inner, outer] = [inner, outer].map(f64::to_degrees);
+                return bad(format!(
+                    "its beam is whole up to {inner:.5} degrees from its axis and ends at {outer:.5}; the first must be at \
+                     least 0 and less than the second, and that at most 90"
+                ));
+            }
+        }
     }
     amount_of_light(number, "intensity", &light.intensity)
 }
 
-/// The intensity or the flux of a point light.
+fn is_direction(number: usize, direction: DVec3) -> Result<(), Problem> {
+    if direction.is_normalized() {
+        return Ok(());
+    }
+    let what = "its direction has no length; give a vector, or leave it out".to_owned();
+    Err(Problem::Light { number, what })
+}
+
+/// The intensity or the flux of a light, or the irradiance of a sun.
 pub(super) fn amount_of_light<V: Value>(number: usize, name: &str, value: &V) -> Result<(), Problem> {
     match first_outside(value, |c| (0.0..f64::INFINITY).contains(&c)) {
         Some((channel, value)) => Err(Problem::Light {
@@ -83,7 +123,7 @@ pub(super) fn amount_of_light<V: Value>(number: usize, name: &str, value: &V) ->
 }
 
 /// The first channel, counted from 1, that is not as it should be.
-fn first_outside<V: Value>(value: &V, is_good: impl Fn(f64) -> bool) -> Option<(usize, f64)> {
+pub(super) fn first_outside<V: Value>(value: &V, is_good: impl Fn(f64) -> bool) -> Option<(usize, f64)> {
     (1..).zip(value.channels().iter().copied()).find(|&(_, c)| !is_good(c))
 }
 

@@ -4,6 +4,7 @@
 //! name = "Office"                       # optional; else the file's name
 //! unit = "mm"                           # of the meshes and of every length here: mm, cm, m, in, ft, or metres as a number
 //! meshes = ["room.obj", "desk.stl"]     # beside this file: .obj, .glb, .gltf, .stl, .ply, .vs3
+//! up = [0, 0, 1]                        # optional: this, and north = [0, 1, 0], for the sun, the sky and the camera
 //!
 //! [materials.white]                     # a material by its name in the meshes; what is not given stays as it is there
 //! reflectance = 0.8                     # or [red, green, blue]
@@ -16,6 +17,27 @@
 //! position = [1000, 1000, 2400]
 //! intensity = 20                        # W/sr, or [red, green, blue]; or `flux` in W. Photometric: cd, or lm
 //! direction = [0, 0, -1]                # if the light is diffuse, I cosθ; else it shines alike in all directions
+//! cone = [20, 35]                       # with a direction: a spot, whose beam is whole up to the first angle and ends at the
+//!                                       # second, in degrees from the axis; between them it fades as glTF has it
+//!
+//! [[luminaire]]                         # as many as there are; a point with the intensities of a photometric file
+//! file = "downlight.ies"                # IES LM-63 of type C, or EULUMDAT (.ldt), beside this file
+//! position = [1000, 1000, 2400]
+//! aim = [0, 0, -1]                      # the way that it looks: this unless it is said
+//! turn = 90                             # degrees, counter-clockwise seen from above, before it is aimed; C = 0 is east at 0
+//! dimming = 0.8                         # of the file's light; or `flux`, in lm or, where the scene is in watts, in W
+//!
+//! [sun]                                 # from infinity, with sharp shadows
+//! azimuth = 135                         # degrees clockwise from north, seen from above
+//! elevation = 40                        # degrees over the horizon; or, for both, `direction`, the way that its light goes
+//! normal_irradiance = 800               # W/m² across its beam, or [red, green, blue]; photometric: `normal_illuminance` in lx
+//!
+//! [sky]                                 # around the scene, above the horizon; below it there is nothing
+//! kind = "cie"                          # or "uniform", or "cie-overcast", (1 + 2 sin of the elevation)/3
+//! type = 12                             # of a "cie" sky: 1 to 15, as ISO 15469:2004 numbers them
+//! horizontal_irradiance = 120           # W/m² of the sky alone, or `zenith_radiance` in W/(m² sr); photometric:
+//!                                       # `horizontal_illuminance` in lx, or `zenith_luminance` in cd/m²
+//! azimuth = 135                         # where the sun is of a sky that depends on it, if there is no [sun]; also `elevation`
 //!
 //! [camera]
 //! position = [1000, -3000, 1500]
@@ -32,13 +54,17 @@
 //! accuracy = "1%"                       # in place of all of these
 //! ```
 
+use super::compass::Compass;
 use super::error::{Error, Place, Problem};
-use super::light_entry::LightEntry;
+use super::light::entry::LightEntry;
+use super::light::sky_entry::SkyEntry;
+use super::light::sun_entry::SunEntry;
 use super::load::{Loaded, SolveOptions, read_mesh};
+use super::luminaire::entry::LuminaireEntry;
 use super::material::{Located, Material};
 use super::mesh::{self, Assembled, Mesh};
 use super::photometric::{self, Units};
-use super::{Camera, Scene, text};
+use super::{Camera, Light, Scene, text};
 use fredholm::value::{Rgb, Spectrum};
 use glam::DVec3;
 use serde::de::Error as _;
@@ -63,11 +89,25 @@ pub(super) fn load(file: &Path, units: Option<Units>) -> Result<Loaded, Error> {
     if units == Units::Photometric {
         photometric::check_grey(&meshes, &overrides)?;
     }
-    let mut lights: Vec<_> = meshes.iter().flat_map(|mesh| mesh.lights.iter().copied()).collect();
+    let mut lights: Vec<_> = meshes.iter().flat_map(|mesh| mesh.lights.iter().cloned()).collect();
     lights.extend(source.lights(&entry.light, metres, units)?);
-    let camera = entry.camera.map(|camera| source.camera(&camera, metres)).transpose()?;
+    let compass = source.compass(entry.up.as_ref(), entry.north.as_ref())?;
+    let (luminaires, told) = source.luminaires(&entry.luminaire, metres, &compass, units)?;
+    lights.extend(luminaires.into_iter().map(Light::Point));
+    if let Some(sun) = &entry.sun {
+        lights.push(source.sun(sun, &compass, units)?.into());
+    }
+    if let Some(sky) = &entry.sky {
+        let sun = lights.iter().rev().find_map(|light| match light {
+            Light::Sun(sun) => Some(-sun.direction),
+            _ => None,
+        });
+        lights.push(source.sky(sky, &compass, sun, units)?.into());
+    }
+    let camera = entry.camera.map(|camera| source.camera(&camera, metres, &compass)).transpose()?;
     let camera = camera.or_else(|| meshes.iter().find_map(|mesh| mesh.camera));
-    let Assembled { surfaces, faces, warnings, clean_up } = mesh::assemble(meshes, &overrides)?;
+    let Assembled { surfaces, faces, mut warnings, clean_up } = mesh::assemble(meshes, &overrides)?;
+    warnings.extend(told);
     let name = entry.name.unwrap_or_else(|| super::load::file_name(file));
     let scene = Scene { name, surfaces, lights, camera };
     let mut solve = entry.solve;
@@ -86,6 +126,12 @@ struct SceneEntry {
     materials: BTreeMap<Spanned<String>, MaterialEntry>,
     #[serde(default)]
     light: Vec<LightEntry>,
+    #[serde(default)]
+    luminaire: Vec<LuminaireEntry>,
+    up: Option<Spanned<[f64; 3]>>,
+    north: Option<Spanned<[f64; 3]>>,
+    sun: Option<Spanned<SunEntry>>,
+    sky: Option<Spanned<SkyEntry>>,
     camera: Option<Spanned<CameraEntry>>,
     #[serde(default)]
     solve: SolveOptions,
@@ -337,8 +383,13 @@ impl Source<'_> {
         })
     }
 
-    pub fn camera(&self, entry: &Spanned<CameraEntry>, metres: f64) -> Result<Camera, Error> {
-        let camera = entry.get_ref().camera(metres);
+    pub fn camera(
+        &self,
+        entry: &Spanned<CameraEntry>,
+        metres: f64,
+        compass: &Compass,
+    ) -> Result<Camera, Error> {
+        let camera = entry.get_ref().camera(metres, compass);
         camera
             .and_then(|camera| camera.check().map(|()| camera))
             .map_err(|problem| problem.at(self.place(&entry.span())))
@@ -346,7 +397,7 @@ impl Source<'_> {
 }
 
 impl CameraEntry {
-    fn camera(&self, metres: f64) -> Result<Camera, Problem> {
+    fn camera(&self, metres: f64, compass: &Compass) -> Result<Camera, Problem> {
         let position = DVec3::from(self.position) * metres;
         let direction = match (self.target, self.direction) {
             (Some(target), None) => DVec3::from(target) * metres - position,
@@ -360,13 +411,8 @@ impl CameraEntry {
         Ok(Camera {
             position,
             target: position + direction,
-            up: self.up.map_or_else(|| usual_up(direction), DVec3::from),
+            up: self.up.map_or_else(|| compass.up_for(direction), DVec3::from),
             vertical_angle: self.vertical_angle.to_radians(),
         })
     }
-}
-
-/// z, as buildings have it, unless the camera looks along z: then y, as pictures have it.
-fn usual_up(direction: DVec3) -> DVec3 {
-    if direction.truncate().length() > 1e-6 * direction.length() { DVec3::Z } else { DVec3::Y }
 }

@@ -6,7 +6,7 @@ use super::face::{self, Face};
 use super::material::Material;
 use super::normals::{self, LeftFlat};
 use super::vs3::Control;
-use super::{Camera, PointLight, Surface};
+use super::{Camera, Light, Surface};
 use crate::polygon::Polygon;
 use fredholm::value::Rgb;
 use glam::DVec3;
@@ -26,7 +26,7 @@ pub(super) struct Mesh {
     pub warnings: Vec<Warning>,
     pub control: Option<Control>,
     /// Lights and a camera that the file has beside its faces.
-    pub lights: Vec<PointLight<Rgb>>,
+    pub lights: Vec<Light<Rgb>>,
     pub camera: Option<Camera>,
     /// Faces whose corners were turned round, since their node mirrors.
     pub turned_round: usize,

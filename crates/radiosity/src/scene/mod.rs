@@ -11,6 +11,7 @@
 
 mod camera;
 mod check;
+mod compass;
 mod cornell;
 mod cut;
 mod error;
@@ -19,8 +20,8 @@ mod face;
 mod file;
 mod gltf;
 mod light;
-mod light_entry;
 mod load;
+mod luminaire;
 mod material;
 mod mesh;
 mod mtl;
@@ -40,8 +41,9 @@ pub use error::{Error, Place, Problem, Warning};
 pub use examine::{Component, Defect, Finding, Report, examine};
 pub use face::Face;
 pub use file::percent;
-pub use light::PointLight;
+pub use light::{Distribution, Light, PointLight, Sky, Spot, Sun};
 pub use load::{Loaded, SolveOptions, load, load_in, load_unlit};
+pub use luminaire::{Aimed, Web};
 pub use mesh::CleanUp;
 pub use photometric::Units;
 pub use thermal::{Thermal, ThermalScene, load_thermal};
@@ -57,8 +59,8 @@ pub struct Scene<V> {
     pub name: String,
     /// The surfaces, in the order of the file.
     pub surfaces: Vec<Surface<V>>,
-    /// Lights that are points, beside the surfaces that emit.
-    pub lights: Vec<PointLight<V>>,
+    /// What shines beside the surfaces that emit.
+    pub lights: Vec<Light<V>>,
     /// Where the file says that the scene is looked at from.
     pub camera: Option<Camera>,
 }

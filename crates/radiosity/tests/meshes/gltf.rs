@@ -4,7 +4,7 @@ use crate::write::{Mesh, cube, triangulated};
 use crate::{folder, read};
 use fredholm::value::Spectrum;
 use glam::DVec3;
-use radiosity::scene::{CleanUp, Loaded, load_unlit};
+use radiosity::scene::{CleanUp, Distribution, Light, Loaded, PointLight, Spot, load_unlit};
 use std::f64::consts::PI;
 
 /// A file with one node of one mesh, whose pieces can be exchanged.
@@ -357,22 +357,28 @@ fn textures_are_their_means_over_each_triangle() {
 fn lights_and_the_camera_stand_where_their_nodes_do() {
     let mut scene = cube_scene();
     let light = |k: usize| format!("\"extensions\":{{\"KHR_lights_punctual\":{{\"light\":{k}}}}}");
+    // The sun's node is turned about x by a quarter, so that −z becomes y; the spot's is stretched, which no axis minds.
+    let quarter = "\"rotation\":[0.70710678,0,0,0.70710678]";
     scene.node = format!(
-        ",\"translation\":[0,0,1],\"children\":[1,2,3]}},{{\"translation\":[4,5,6],{}}},{{\"name\":\"sun\",{}}},\
-         {{\"camera\":0,\"translation\":[0,-9,0],\"rotation\":[0.70710678,0,0,0.70710678]",
+        ",\"translation\":[0,0,1],\"children\":[1,2,3,4]}},{{\"translation\":[4,5,6],{}}},{{\"name\":\"sun\",{quarter},{}}},\
+         {{\"camera\":0,\"translation\":[0,-9,0],{quarter}}},{{\"name\":\"beam\",\"scale\":[3,1,2],{}",
         light(0),
-        light(1)
+        light(1),
+        light(2)
     );
     scene.rest = ",\"extensionsUsed\":[\"KHR_lights_punctual\",\"EXT_other\"],\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[\
-         {\"type\":\"point\",\"color\":[1,0.5,0.25],\"intensity\":40},{\"type\":\"directional\"}]}},\
+         {\"type\":\"point\",\"color\":[1,0.5,0.25],\"intensity\":40},{\"type\":\"directional\",\"intensity\":900},\
+         {\"type\":\"spot\",\"intensity\":7,\"range\":3,\"spot\":{\"innerConeAngle\":0.25,\"outerConeAngle\":1.5707964}}]}},\
          \"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":0.5,\"znear\":0.1}}]"
         .to_owned();
     let loaded = loaded("gltf_lights", &scene);
-    let [light] = loaded.scene.lights[..] else { panic!("{:?}", loaded.scene.lights) };
-    assert_eq!(
-        (light.position, light.intensity, light.direction),
-        (DVec3::new(4.0, 5.0, 7.0), Spectrum([40.0, 20.0, 10.0]), None)
-    );
+    let [Light::Point(point), Light::Sun(sun), Light::Point(spot)] = &loaded.scene.lights[..] else {
+        panic!("{:?}", loaded.scene.lights)
+    };
+    assert_eq!(*point, PointLight::uniform(DVec3::new(4.0, 5.0, 7.0), Spectrum([40.0, 20.0, 10.0])));
+    assert!(sun.irradiance == Spectrum([900.0; 3]) && sun.direction.distance(DVec3::Y) < 1e-6, "{sun:?}");
+    let beam = Spot { direction: -DVec3::Z, inner: 0.25, outer: std::f64::consts::FRAC_PI_2 };
+    assert_eq!((&spot.distribution, spot.intensity), (&Distribution::Spot(beam), Spectrum([7.0; 3])));
     let camera = loaded.scene.camera.unwrap();
     assert_eq!(camera.position, DVec3::new(0.0, -9.0, 1.0));
     assert!(
@@ -380,16 +386,28 @@ fn lights_and_the_camera_stand_where_their_nodes_do() {
     );
     assert_eq!(camera.vertical_angle, 0.5);
     let told: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
-    assert!(
-        told[0].contains("the node `sun` is a directional light") && told[0].contains("left out"),
-        "{told:?}"
-    );
+    assert!(told[0].contains("the range of the light of the node `beam` is passed over"), "{told:?}");
     assert!(told[1].contains("the extension `EXT_other` is passed over"), "{told:?}");
     // In millimetres of a scene file.
     let toml = "unit = 'mm'\nmeshes = ['a.glb']\n[[light]]\nposition = [1, 1, 1]\nintensity = 2\n";
     std::fs::write(folder("gltf_lights").join("a.toml"), toml).unwrap();
     let lights = load_unlit(&folder("gltf_lights").join("a.toml")).unwrap().scene.lights;
-    assert!(lights.len() == 2 && lights[0].position.distance(DVec3::new(4e-3, 5e-3, 7e-3)) < 1e-12);
+    let Light::Point(first) = &lights[0] else { panic!("{lights:?}") };
+    assert!(lights.len() == 4 && first.position.distance(DVec3::new(4e-3, 5e-3, 7e-3)) < 1e-12);
+    // Its point light is a colour, which lumens have not.
+    std::fs::write(folder("gltf_lights").join("b.toml"), format!("units = 'photometric'\n{toml}")).unwrap();
+    let message = load_unlit(&folder("gltf_lights").join("b.toml")).unwrap_err().to_string();
+    assert!(message.contains("a.glb: a light of the file is the colour [40, 20, 10]"), "{message}");
+    // A beam that ends before it begins, and the axis of a node without an extent along it.
+    for (from, to, what) in [
+        ("innerConeAngle\":0.25", "innerConeAngle\":1.75", "its beam is whole up to 100.26"),
+        ("\"scale\":[3,1,2]", "\"scale\":[3,1,0]", "its direction has no length"),
+    ] {
+        let mut bad = cube_scene();
+        (bad.node, bad.rest) = (scene.node.replace(from, to), scene.rest.replace(from, to));
+        let message = read("gltf_bad_lights", "a.glb", &bad.glb()).unwrap_err().to_string();
+        assert!(message.contains("a.glb: light 3") && message.contains(what), "{message}");
+    }
 }
 
 #[test]

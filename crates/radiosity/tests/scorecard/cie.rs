@@ -60,14 +60,18 @@ fn point_source() -> Case {
         (1.5, 1.0, 59.9750),
         (1.5, 1.5, 49.3827),
     ];
-    let light = PointLight { position: 3.0 * DVec3::Z, intensity: 1000.0, direction: Some(-DVec3::Z) };
+    let light = PointLight::diffuse(3.0 * DVec3::Z, 1000.0, -DVec3::Z).into();
     let floor = black(&[(0.0, &[parallelogram(p(-2.0, -2.0, 0.0), 4.0 * DVec3::X, 4.0 * DVec3::Y)])]);
     let visibility = visibility(&floor);
     let row = |(x, y, lux): (f64, f64, f64)| {
         let square = x * x + y * y + 9.0;
         let at = SurfacePoint { position: p(x, y, 0.0), normal: DVec3::Z };
         let expected = published(1000.0 * 9.0 / (square * square), lux);
-        Row::new(format!("({x}, {y}, 0)"), expected, irradiance(&[light], &visibility, &at))
+        Row::new(
+            format!("({x}, {y}, 0)"),
+            expected,
+            irradiance(std::slice::from_ref(&light), &visibility, &at),
+        )
     };
     Case {
         title: "CIE 171:2006, TC 5.2",
@@ -215,7 +219,7 @@ fn indirect() -> Case {
 fn means_of_the_cube(reflectance: f64) -> (f64, f64) {
     let mut cube = super::common::scene([walls(DVec3::ZERO, DVec3::splat(4.0), false).to_vec()], reflectance);
     let intensity = 10_000.0 / (4.0 * PI);
-    cube.lights = vec![PointLight { position: DVec3::splat(2.0), intensity, direction: None }];
+    cube.lights = vec![PointLight::uniform(DVec3::splat(2.0), intensity).into()];
     let (patches, visibility) = (Patches::new(&cube, 1.0).unwrap(), visibility(&cube));
     let options = Options { tolerance: 1e-10, accuracy: 1e-6, ..Options::default() };
     let solution = radiosity::solve::solve(&patches, &visibility, &options, &mut Unobserved).unwrap();

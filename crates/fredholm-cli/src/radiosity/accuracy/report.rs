@@ -1,8 +1,10 @@
 //! The numbers of a run to an accuracy: what `--json` writes and the table shows.
 
+use crate::radiosity::lights::Lights;
 use crate::radiosity::memory;
 use crate::radiosity::report::{Named, Surface};
 use crate::radiosity::timing::Seconds;
+use fredholm::value::Value;
 use radiosity::adaptive::{Bound, Round};
 use radiosity::scene::{CleanUp, Scene, Units};
 use serde::Serialize;
@@ -34,6 +36,9 @@ pub struct Report {
     pub rounds: Vec<Mesh>,
     /// Whether no light at all reaches any surface.
     pub dark: bool,
+    /// What shines beside the surfaces.
+    #[serde(flatten)]
+    pub lights: Lights,
     /// How many polygons are drawn with the normals of a curved surface; the light on them is solved as if they were flat.
     pub smooth_normals: usize,
     /// What the readers did to the mesh.
@@ -63,7 +68,7 @@ pub struct Mesh {
 
 impl Report {
     /// The numbers of a solved scene.
-    pub fn new<V>(
+    pub fn new<V: Value>(
         scene: &Scene<V>,
         accuracy: f64,
         rounds: &[Round],
@@ -88,6 +93,7 @@ impl Report {
             patches,
             form_factors,
             rounds,
+            lights: Lights::new(scene, units),
             smooth_normals: scene.curved_polygons(),
             clean_up: CleanUp::default(),
             dark: surfaces.iter().all(Surface::is_dark),

@@ -24,6 +24,7 @@ fn lines(report: &Report) -> Vec<(&'static str, String)> {
         ("iteration", percent(report.iteration_error)),
         ("mesh", mesh(report)),
     ];
+    lines.splice(0..0, report.lights.lines());
     lines.extend(of_mesh(report.smooth_normals, report.clean_up));
     lines.extend(last(report.peak_memory_bytes, report.dark, &report.seconds, &report.files));
     lines

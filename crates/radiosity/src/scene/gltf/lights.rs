@@ -1,36 +1,36 @@
-//! What a node carries beside meshes: a point light I (W/sr or cd), or the camera, which looks along −z with y upwards.
+//! What a node carries beside meshes: a light, I (W/sr or cd) or H (W/m² or lx) along −z, or the camera, which looks along −z
+//! with y upwards.
 
 use super::name_of;
 use crate::scene::error::{Place, Problem};
 use crate::scene::mesh::Mesh;
-use crate::scene::{Camera, PointLight};
+use crate::scene::{Camera, Distribution, Light, PointLight, Spot, Sun, check};
 use ::gltf::Node;
 use ::gltf::camera::Projection;
-use ::gltf::khr_lights_punctual::{Kind, Light};
-use fredholm::value::Spectrum;
+use ::gltf::khr_lights_punctual::{self as punctual, Kind};
+use fredholm::value::{Rgb, Spectrum};
 use glam::{DMat4, DVec3};
+use std::f64::consts::FRAC_PI_2;
 
 /// Takes the light and the camera of a node that stands `here`.
 pub(super) fn take(node: &Node<'_>, here: DMat4, mesh: &mut Mesh) -> Result<(), Problem> {
-    let file = Place::file(&mesh.file);
     if let Some(light) = node.light() {
-        match other(&light) {
-            None => {
-                let intensity = light.color().map(|channel| f64::from(channel) * f64::from(light.intensity()));
-                let position = here.transform_point3(DVec3::ZERO);
-                mesh.lights.push(PointLight { position, intensity: Spectrum(intensity), direction: None });
-            }
-            Some(kind) => mesh.warn(file.clone(), format!(
-                "{} is a {kind} light, of which nothing is known here: its light is left out. A point light (`point`) or a \
-                 surface that emits would be taken",
+        if light.range().is_some() {
+            let message = format!(
+                "the range of the light of {} is passed over: light goes on until something stops it",
                 name_of(node)
-            )),
+            );
+            mesh.warn(Place::file(&mesh.file), message);
         }
+        let light = taken(&light, here);
+        check::light(mesh.lights.len() + 1, &light)?;
+        mesh.lights.push(light);
     }
     let Some(camera) = node.camera() else { return Ok(()) };
+    let file = Place::file(&mesh.file);
+    let axis = |axis| axis_of(here, axis);
     match camera.projection() {
         Projection::Perspective(lens) if mesh.camera.is_none() => {
-            let axis = |axis: DVec3| here.transform_vector3(axis).normalize_or_zero();
             let position = here.transform_point3(DVec3::ZERO);
             let camera = Camera {
                 position,
@@ -54,11 +54,32 @@ pub(super) fn take(node: &Node<'_>, here: DMat4, mesh: &mut Mesh) -> Result<(), 
     Ok(())
 }
 
-/// What a light is called that is no point.
-fn other(light: &Light<'_>) -> Option<&'static str> {
+fn axis_of(here: DMat4, axis: DVec3) -> DVec3 {
+    here.transform_vector3(axis).normalize_or_zero()
+}
+
+/// A light where its node is.
+fn taken(light: &punctual::Light<'_>, here: DMat4) -> Light<Rgb> {
+    let amount = Spectrum(light.color().map(|channel| f64::from(channel) * f64::from(light.intensity())));
+    let point = |distribution| {
+        let position = here.transform_point3(DVec3::ZERO);
+        Light::Point(PointLight { position, intensity: amount, distribution })
+    };
+    let direction = axis_of(here, DVec3::NEG_Z);
     match light.kind() {
-        Kind::Point => None,
-        Kind::Spot { .. } => Some("spot"),
-        Kind::Directional => Some("directional"),
+        Kind::Point => point(Distribution::Uniform),
+        Kind::Spot { inner_cone_angle, outer_cone_angle } => {
+            let [inner, outer] = [inner_cone_angle, outer_cone_angle].map(f64::from);
+            // A right angle is a little more than that in single precision.
+            point(Distribution::Spot(Spot {
+                direction,
+                inner,
+                outer: outer.min(FRAC_PI_2.max(outer - ROUNDED)),
+            }))
+        }
+        Kind::Directional => Light::Sun(Sun { direction, irradiance: amount }),
     }
 }
+
+/// What single precision may add to an angle.
+const ROUNDED: f64 = 1e-6;

@@ -1,4 +1,4 @@
-//! The glTF reader (2.0, `.gltf` and `.glb`): the triangles of all nodes of a scene, x = M_node v, with materials, point lights
+//! The glTF reader (2.0, `.gltf` and `.glb`): the triangles of all nodes of a scene, x = M_node v, with materials, lights
 //! and a camera.
 //!
 //! | in the file | here |
@@ -8,7 +8,7 @@
 //! | base colour, its texture, vertex colours | reflectance = base (1 − metallic): metal reflects no light diffusely |
 //! | emissive factor × texture × strength | the radiance L, so that E = π L: in cd/m² of a photometric scene, else in W/(m² sr) |
 //! | a texture | its mean over each triangle; triangles with means that differ by more than a 512th are surfaces of their own |
-//! | `KHR_lights_punctual` | a point light of that intensity, in cd or W/sr; others are told and left out |
+//! | `KHR_lights_punctual` | points and spots of that intensity, in cd or W/sr, and directional lights as suns, in lx or W/m²; a `range` is passed over |
 //! | the first perspective camera | the scene's |
 //!
 //! Double-sided materials reflect on the front alone, and all of them are opaque; that and all else which is passed over is

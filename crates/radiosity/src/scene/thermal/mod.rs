@@ -32,6 +32,7 @@
 mod entry;
 
 use self::entry::{EnclosureEntry, Entry, PerBand, SurfaceEntry, condition};
+use super::compass::Compass;
 use super::error::{Error, Place, Problem, listed};
 use super::face;
 use super::file::{Source, Unit};
@@ -160,7 +161,10 @@ impl<'a> Reader<'a> {
             return Err(Problem::NoFaces.at(file()));
         }
         let name = entry.name.unwrap_or_else(|| super::load::file_name(self.source.file));
-        let camera = entry.camera.map(|camera| self.source.camera(&camera, metres)).transpose()?;
+        let camera = entry
+            .camera
+            .map(|camera| self.source.camera(&camera, metres, &Compass::default()))
+            .transpose()?;
         let scene = Scene { name, surfaces: shapes, lights: Vec::new(), camera };
         let solve =
             SolveOptions { patch_size: entry.solve.patch_size.map(|size| size * metres), ..entry.solve };
