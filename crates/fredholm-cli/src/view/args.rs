@@ -1,15 +1,15 @@
 //! What may be said to `fredholm view`.
 
 use crate::args::{at_least_one, number, positive};
-use crate::radiosity::args::{Method, Solver};
+use crate::radiosity::args::{Method, Solver, Space};
 use clap::Args;
 use std::path::PathBuf;
 
 /// What stands below the options.
 pub const EXAMPLES: &str = "\
 The page is served to this machine alone, at the address that is printed, until Ctrl-C. Each window has
-a solver of its own, which can be paused, stepped, scrubbed back, raced against another and restarted;
-lamps are dimmed and materials changed while one looks. Nothing is loaded from the network.
+a solver of its own, which can be paused, stepped, scrubbed back, raced against another and restarted
+with another method; lamps are dimmed and materials changed while one looks. Nothing is loaded from the network.
 
 Examples:
   fredholm view                                       the Cornell box
@@ -43,9 +43,13 @@ pub struct View {
     )]
     pub patch_count: Option<usize>,
 
-    /// How the equation becomes numbers [default: galerkin]
+    /// How the equation becomes numbers at first [default: galerkin]
     #[arg(long, value_enum, help_heading = "Equation")]
     pub method: Option<Method>,
+
+    /// What light is on each patch at first: what is shown is its mean
+    #[arg(long, value_enum, default_value_t = Space::P0, help_heading = "Equation")]
+    pub space: Space,
 
     /// How the numbers are solved for at first [default: southwell]
     #[arg(long, value_enum, help_heading = "Equation")]
