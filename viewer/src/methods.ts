@@ -8,11 +8,11 @@ import { text } from './scale';
 export const DISCRETISATIONS: Record<Discretisation, { name: string; tip: string }> = {
   galerkin: {
     name: 'Galerkin: patch to patch',
-    tip: 'The equation holds in the mean over each patch. F_ij is the share of the light of patch j that arrives anywhere on patch i.',
+    tip: 'The equation holds in the mean over each patch. F_ij is the share of the view of patch i that patch j fills, on average over patch i.',
   },
   collocation: {
     name: 'collocation: point to patch',
-    tip: 'The equation holds at chosen points of each patch. F_ij is what such a point receives of a whole patch.',
+    tip: 'The equation holds at chosen points of each patch. F_ij is the share of the view of such a point that patch j fills.',
   },
   nystrom: {
     name: 'Nyström: point to point',

@@ -25,7 +25,7 @@ Examples:
 /// Options of `fredholm bake`.
 #[derive(Debug, Args)]
 pub struct Bake {
-    /// The scene: .toml, or a mesh in metres (.obj with its .mtl, .stl, .ply); the Cornell box if left out
+    /// The scene: .toml, or a mesh in metres (.obj with its .mtl, .glb, .gltf, .stl, .ply); the Cornell box if left out
     pub scene: Option<PathBuf>,
 
     /// The binary glTF to write [default: the scene's name, .glb]

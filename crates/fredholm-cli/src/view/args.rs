@@ -1,7 +1,7 @@
 //! What may be said to `fredholm view`.
 
 use crate::args::{at_least_one, number, positive};
-use crate::radiosity::args::{Method, Solver, Space};
+use crate::radiosity::args::{Bands, Method, Solver, Space};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -21,13 +21,17 @@ Examples:
 /// Options of `fredholm view`. What is `None` is left to the scene file, and then to a default.
 #[derive(Debug, Args)]
 pub struct View {
-    /// The scene: .toml, or a mesh in metres (.obj with its .mtl, .stl, .ply); the Cornell box if left out
+    /// The scene: .toml, or a mesh in metres (.obj with its .mtl, .glb, .gltf, .stl, .ply); the Cornell box if left out
     #[arg(help_heading = "Scene")]
     pub scene: Option<PathBuf>,
 
     /// Lumens in place of watts: lx and cd/m² [default: as the scene's `units` say]
     #[arg(long, requires = "scene", help_heading = "Scene")]
     pub photometric: bool,
+
+    /// Red, green and blue are what windows solve; all bands are refused with what to do instead
+    #[arg(long, value_enum, default_value_t = Bands::Rgb, hide = true)]
+    pub bands: Bands,
 
     /// The longest that an edge of a patch may be, in metres
     #[arg(long, value_name = "METRES", value_parser = positive, help_heading = "Scene")]

@@ -31,7 +31,7 @@ use self::server::{Hall, SEATS};
 use self::solvers::Solver;
 use self::stage::{Discretisation, Stage};
 use crate::ending::Ending;
-use crate::radiosity::args::Method;
+use crate::radiosity::args::{Bands, Method};
 use crate::radiosity::memory;
 use crate::radiosity::settings::wish;
 use crate::terminal::{Stream, say, warn};
@@ -55,6 +55,11 @@ pub fn command(args: &View) -> Result<Ending> {
     if let Some(threads) = args.threads {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         pool.build_global().with_context(|| format!("cannot start {threads} threads"))?;
+    }
+    if args.bands == Bands::Spectral {
+        bail!(
+            "windows solve red, green and blue; `fredholm radiosity --bands spectral --html FILE` makes a page of all bands"
+        );
     }
     let (scene, units, wishes) = scene(args)?;
     let solver = solver(args, &wishes)?;

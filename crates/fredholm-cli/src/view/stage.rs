@@ -145,7 +145,7 @@ pub mod tests {
 
     #[test]
     fn a_matrix_is_wanted_once_and_only_where_there_is_room() {
-        let how = Discretisation { memory: 5 << 20, ..cornell(200).how };
+        let how = Discretisation { memory: 1 << 20, ..cornell(200).how };
         let stage = Stage::new(cornell_box(), Units::Radiometric, how).unwrap();
         let linear = Kind { space: Space::P1, ..GALERKIN };
         for kind in [GALERKIN, GALERKIN, linear, Kind { method: Method::Nystrom, ..GALERKIN }] {
