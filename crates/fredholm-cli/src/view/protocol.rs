@@ -67,7 +67,7 @@ pub enum Command {
         /// Where a picture is taken from; the scene's camera if left out.
         camera: Option<Eye>,
         /// The light that is shown.
-        shown: Option<Shown>,
+        shown: Option<Box<Shown>>,
     },
 }
 

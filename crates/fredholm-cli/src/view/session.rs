@@ -227,7 +227,7 @@ impl Session<'_> {
             Command::Relight { reflectance, version } => self.ask(&reflectance, version, on.discrete),
             Command::Export { format, camera, shown } => {
                 let source = Source { stage: self.stage, setup: run.setup, kept: run.kept, space: on.space };
-                match export(source, (&run.lanes[0], run.norm), format, camera, shown.as_ref()) {
+                match export(source, (&run.lanes[0], run.norm), format, camera, shown.as_deref()) {
                     Ok((name, content)) => self.tell(Message::Bytes(super::protocol::file(&name, &content))),
                     Err(error) => self.refuse(format!("{error:#}")),
                 }
