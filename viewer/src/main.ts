@@ -2,17 +2,18 @@
 
 import { letters, showEquation, showLanes, showRelit, showWaiting } from './header';
 import { listenToKeys } from './keys';
-import { showLegend } from './legend';
+import { marked, showLegend } from './legend';
 import { materials, reflectances, type Material } from './materials';
 import { METHODS } from './methods';
+import { offerPads } from './pads';
 import { element, Panel } from './panel';
 import { Patches } from './patches';
-import { NONE, State, type Message, type Scene } from './protocol';
+import { NONE, State, type Kind, type Message, type Scene, type Shown } from './protocol';
 import { QUANTITIES, type Sight } from './quantities';
 import { describe, patchName, showReadout } from './readout';
 import { Relit } from './relit';
 import { Run } from './run';
-import { offerFiles, save } from './saving';
+import { base64, offerFiles, save } from './saving';
 import { text, type Scale } from './scale';
 import { initial, offered, read, write, type Settings } from './settings';
 import { open, type Source } from './source';
@@ -39,6 +40,8 @@ class Page {
   private readonly relit: Relit;
   private run: Run | undefined;
   private playing = false;
+  /** What was asked for last. */
+  private asked: { kind: Kind; lamps: number[]; reflectance: number[][] } | undefined;
   /** Until the solver that was asked for begins. */
   private waiting = false;
   /** The share of the form factors that are known. */
@@ -101,11 +104,7 @@ class Page {
       case 'assembly':
         return this.showAssembly(message.done, message.of);
       case 'started':
-        this.waiting =
-          this.source.live && (message.solvers[0] !== this.settings.solver || message.solvers[1] !== this.settings.rival);
-        this.run = new Run(message.run, message.solvers, message.norm, message.target);
-        this.scale = undefined;
-        return this.refresh();
+        return this.begin(message);
       case 'frame':
         this.run?.add(message.frame);
         if (!this.run?.goesOn) this.setPlaying(false, false);
@@ -122,6 +121,26 @@ class Page {
       case 'error':
         return this.notice(message.message);
     }
+  }
+
+  private begin(message: Extract<Message, { type: 'started' }>): void {
+    const { settings, scene } = this;
+    const { kind, solvers, unknowns } = message;
+    this.waiting = this.source.live && (solvers[0] !== settings.solver || solvers[1] !== settings.rival || !this.isAsked(kind));
+    const asked = this.waiting ? undefined : this.asked;
+    const reflectance = asked?.reflectance ?? scene.surfaces.map((surface) => surface.reflectance);
+    this.run = new Run(message.run, kind, solvers, unknowns, asked?.lamps ?? scene.lamps.map(() => 1), reflectance);
+    Object.assign(scene, { stored: message.stored, row_sum: message.row_sum ?? Infinity });
+    this.scale = undefined;
+    // A shot is another share of the work when there are more unknowns.
+    if (this.playing && settings.speed === undefined && this.source.live) this.source.send({ type: 'play', passes: this.passes });
+    this.panel.show();
+    this.panel.showSpeed(this.passes, unknowns);
+    this.refresh();
+  }
+
+  private isAsked({ method, space }: Kind): boolean {
+    return method === this.settings.method && space === this.settings.space;
   }
 
   private lost(): void {
@@ -147,11 +166,15 @@ class Page {
   }
 
   private start(play = this.playing || !this.run?.goesOn): void {
-    const { solver, rival, lamps } = this.settings;
+    const { method, space, solver, rival } = this.settings;
+    const [lamps, reflectance] = [[...this.settings.lamps], this.reflectance];
     this.setRelit(false);
+    if (this.asked && !this.isAsked(this.asked.kind)) this.relit.forget();
+    this.asked = { kind: { method, space }, lamps, reflectance };
     this.waiting = true;
     document.body.dataset['state'] = 'Asked';
-    this.source.send({ type: 'start', solvers: rival ? [solver, rival] : [solver], lamps, reflectance: this.reflectance });
+    const solvers = rival ? [solver, rival] : [solver];
+    this.source.send({ type: 'start', kind: this.asked.kind, solvers, lamps, reflectance });
     this.setPlaying(play);
     this.look();
   }
@@ -160,12 +183,16 @@ class Page {
     const { solver, rival, speed } = this.settings;
     if (speed !== undefined) return speed;
     if (rival) return RACE;
-    return METHODS[solver].shoots ? SHOTS_A_SECOND / this.scene.patches : SWEEPS_A_SECOND;
+    return METHODS[solver].shoots ? SHOTS_A_SECOND / this.unknowns : SWEEPS_A_SECOND;
+  }
+
+  private get unknowns(): number {
+    return this.run?.unknowns ?? this.scene.patches;
   }
 
   private setSpeed(passes: number): void {
     this.settings.speed = passes;
-    this.panel.showSpeed(passes);
+    this.panel.showSpeed(passes, this.unknowns);
     if (this.playing) this.source.send({ type: 'play', passes });
     this.remember();
   }
@@ -275,7 +302,9 @@ class Page {
     for (const picture of view.pictures) picture.material.showMesh(settings.mesh);
     if (settings.display === 'difference' && !settings.rival && this.scene.stored && !this.relit.isAsked) this.askRelight();
     this.panel.show();
-    this.panel.showSpeed(this.passes);
+    this.panel.showSpeed(this.passes, this.unknowns);
+    document.body.classList.toggle('walking', settings.walk);
+    element('walk-here').setAttribute('aria-pressed', String(settings.walk));
     this.timeline.recolour();
     this.remember();
     this.refresh();
@@ -299,13 +328,30 @@ class Page {
     view.shown = this.relit.isShown || this.settings.display === 'difference' ? 1 : run.histories.length;
     for (let lane = 0; lane < view.shown; lane++) this.showLane(lane);
     view.draw();
-    showLegend(this.scene, this.settings.display, this.scale, this.sight(0));
+    showLegend(this.marked());
     this.showHeader(run);
     this.timeline.show(run, this.relit.isShown, this.source.live);
     this.showReadout();
     const frame = run.frame(0)!;
     if (this.waiting) return;
     Object.assign(document.body.dataset, { iteration: String(frame.iteration), residual: String(frame.residual), state: State[frame.state] });
+  }
+
+  private marked(): ReturnType<typeof marked> {
+    return marked(this.scene, this.settings.display, this.scale, this.sight(0));
+  }
+
+  /** The light that is shown, unless it is what the server has now. */
+  private shown(): Shown | undefined {
+    const { relit, run, settings } = this;
+    if (relit.isShown) {
+      return { radiosity: base64(relit.combine(settings.lamps)), lamps: settings.lamps, reflectance: this.reflectance };
+    }
+    const frame = run?.frame(0);
+    if (!run || !frame || (run.isNewest && !this.playing)) return undefined;
+    const { iteration, work, residual } = frame;
+    const moment = Number.isFinite(residual) ? { moment: { iteration, work, residual } } : {};
+    return { radiosity: base64(frame.radiosity), lamps: run.lamps, reflectance: run.reflectance, ...moment };
   }
 
   private showHeader(run: Run): void {
@@ -389,7 +435,15 @@ class Page {
       if (this.playing && !this.run?.isNewest) this.setPlaying(false, this.source.live);
       this.refresh();
     });
-    offerFiles(this.source, this.view, (message) => this.notice(message));
+    offerFiles(this.source, this.view, { shown: () => this.shown(), marked: () => this.marked() }, (message) => this.notice(message));
+    offerPads(this.view.walk, {
+      toggle: () => {
+        this.settings.walk = !this.settings.walk;
+        this.look();
+      },
+      changed: () => this.view.draw(),
+      rest: () => this.view.onmove(),
+    });
   }
 
   private scrub(moment: number): void {

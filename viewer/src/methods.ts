@@ -1,8 +1,30 @@
 // The solvers as the paper has them: their names, their formulas, and what a step of each does.
 
-import type { Frame, Solver } from './protocol';
+import type { Degree, Discretisation, Frame, Solver } from './protocol';
 import { NONE } from './protocol';
 import { text } from './scale';
+
+/** What F_ij is: the paper's three ways to make numbers of the equation. */
+export const DISCRETISATIONS: Record<Discretisation, { name: string; tip: string }> = {
+  galerkin: {
+    name: 'Galerkin: patch to patch',
+    tip: 'The equation holds in the mean over each patch. F_ij is the share of the view of patch i that patch j fills, on average over patch i.',
+  },
+  collocation: {
+    name: 'collocation: point to patch',
+    tip: 'The equation holds at chosen points of each patch. F_ij is the share of the view of such a point that patch j fills.',
+  },
+  nystrom: {
+    name: 'Nyström: point to point',
+    tip: 'The integral becomes a sum over points. Fast, but wrong where patches touch: dark or bright seams in corners are its error.',
+  },
+};
+
+export const DEGREES: Record<Degree, { name: string; tip: string }> = {
+  p0: { name: 'constant on each patch (P0)', tip: 'One number for each patch' },
+  p1: { name: 'linear (P1, Q1)', tip: 'Three numbers for a triangle, four for a quadrilateral; the mean is shown' },
+  p2: { name: 'quadratic (P2, Q2)', tip: 'Six numbers for a triangle, nine for a quadrilateral; the mean is shown' },
+};
 
 export interface Method {
   name: string;

@@ -1,8 +1,8 @@
 // The controls beside the picture: what they say is put into the settings, and what they show comes from there.
 
-import { METHODS } from './methods';
+import { DEGREES, DISCRETISATIONS, METHODS } from './methods';
 import { swatch, type Material } from './materials';
-import type { Scene, Solver } from './protocol';
+import type { Degree, Discretisation, Scene, Solver } from './protocol';
 import { QUANTITIES } from './quantities';
 import { text } from './scale';
 import { offered, type Settings } from './settings';
@@ -49,6 +49,8 @@ export class Panel {
       );
     };
     const solvers = scene.solvers.map((solver): [string, string, string] => [solver, METHODS[solver].name, METHODS[solver].tip]);
+    fill('method-of', Object.entries(DISCRETISATIONS).map(([value, { name, tip }]) => [value, name, tip]));
+    fill('space', Object.entries(DEGREES).map(([value, { name, tip }]) => [value, name, tip]));
     fill('solver', solvers);
     fill('rival', [['', 'nobody', 'One solver alone'], ...solvers]);
     fill('display', offered(scene).map((display) =>
@@ -61,6 +63,14 @@ export class Panel {
     const { settings, wishes } = this;
     const on = <T extends HTMLElement>(id: string, event: string, act: (target: T) => void): void =>
       element<T>(id).addEventListener(event, () => act(element<T>(id)));
+    on<HTMLSelectElement>('method-of', 'change', ({ value }) => {
+      settings.method = value as Discretisation;
+      wishes.solvers();
+    });
+    on<HTMLSelectElement>('space', 'change', ({ value }) => {
+      settings.space = value as Degree;
+      wishes.solvers();
+    });
     on<HTMLSelectElement>('solver', 'change', ({ value }) => {
       settings.solver = value as Solver;
       if (settings.rival === settings.solver) settings.rival = undefined;
@@ -135,10 +145,6 @@ export class Panel {
     element('materials').replaceChildren(...rho);
     this.sliders.lamps = lamps.map((label) => label.querySelector('input')!);
     this.sliders.materials = rho.map((label) => label.querySelector('input')!);
-    if (!scene.stored) {
-      element('relight-hint').textContent =
-        'So many form factors are not stored: lamps and materials take effect with a new start.';
-    }
   }
 
   /** Shows the settings. */
@@ -147,6 +153,8 @@ export class Panel {
     const set = (id: string, value: string): void => {
       element<HTMLInputElement | HTMLSelectElement>(id).value = value;
     };
+    set('method-of', settings.method);
+    set('space', settings.space);
     set('solver', settings.solver);
     set('rival', settings.rival ?? '');
     set('display', settings.display);
@@ -156,6 +164,10 @@ export class Panel {
     for (const id of ['smooth', 'mesh', 'contours', 'walk'] as const) element<HTMLInputElement>(id).checked = settings[id];
     element('exposure-said').textContent = `${settings.exposure >= 0 ? '+' : '−'}${Math.abs(settings.exposure).toFixed(1)} EV`;
     element('exposure-said').title = 'Stops: each doubles the brightness';
+    element('relight-hint').textContent = this.scene.stored
+      ? 'The solution is linear in the lamps: one solution is kept for each, and dimming adds them up at once.'
+      : 'So many form factors are not stored: lamps and materials take effect with a new start.';
+    element('method-hint').textContent = DISCRETISATIONS[settings.method].tip;
     element('race-hint').hidden = settings.rival === undefined;
     element('display-hint').textContent = settings.display === 'light'
       ? 'Radiance u/π, exposed and tone-mapped for the screen.' : QUANTITIES[settings.display].hint;
@@ -171,12 +183,12 @@ export class Panel {
   }
 
   /** Shows a speed, in passes a second, as the method counts. */
-  showSpeed(passes: number): void {
+  showSpeed(passes: number, unknowns: number): void {
     const method = METHODS[this.settings.solver];
     element<HTMLInputElement>('speed').value = String(Math.log10(passes));
     const { rival } = this.settings;
     const shoots = method.shoots && (rival === undefined || METHODS[rival].shoots);
-    const [rate, unit] = shoots ? [passes * this.scene.patches, 'shots'] : [passes, rival ? 'passes' : `${method.step}s`];
+    const [rate, unit] = shoots ? [passes * unknowns, 'shots'] : [passes, rival ? 'passes' : `${method.step}s`];
     element('speed-said').textContent = `${text(rate, 2)} ${unit}/s`;
   }
 }

@@ -26,6 +26,8 @@ export class Patches {
   /** Which shared corner each vertex is; the centres have none of their own. */
   private readonly shared: Uint32Array;
   private readonly sums: Float32Array;
+  /** The shared corners at the rim of a surface, beyond which there is no neighbour. */
+  private readonly rim: Uint8Array;
   private readonly uses: Float32Array;
 
   constructor(
@@ -46,6 +48,7 @@ export class Patches {
     this.sums = new Float32Array(3 * groups);
     this.uses = new Float32Array(groups);
     this.eachCorner((vertex) => this.uses[this.shared[vertex]!]!++);
+    this.rim = this.findRim(groups);
   }
 
   get vertices(): number {
@@ -99,6 +102,23 @@ export class Patches {
     return numbers.size;
   }
 
+  /** The ends of edges that belong to one patch alone. */
+  private findRim(groups: number): Uint8Array {
+    const edges = new Map<number, number>();
+    const key = (a: number, b: number): number => Math.min(a, b) * groups + Math.max(a, b);
+    const eachEdge = (visit: (a: number, b: number) => void): void =>
+      this.eachCorner((vertex, i) => {
+        const next = this.first[i]! + ((vertex - this.first[i]! + 1) % this.sides[i]!);
+        visit(this.shared[vertex]!, this.shared[next]!);
+      });
+    eachEdge((a, b) => edges.set(key(a, b), (edges.get(key(a, b)) ?? 0) + 1));
+    const rim = new Uint8Array(groups);
+    eachEdge((a, b) => {
+      if (edges.get(key(a, b)) === 1) rim[a] = rim[b] = 1;
+    });
+    return rim;
+  }
+
   private eachCorner(visit: (vertex: number, patch: number) => void): void {
     for (let i = 0; i < this.count; i++) {
       const first = this.first[i]!;
@@ -126,6 +146,36 @@ export class Patches {
         }
       }
     }
+    if (smooth) this.extrapolate(values, channels, out);
+  }
+
+  /**
+   * At the rim the mean of patches is that of half a patch further in, and half a row would be flat: on quadrilaterals light goes
+   * on from the opposite corner through the centre, to twice the mean at most.
+   */
+  private extrapolate(values: Float32Array, channels: number, out: Float32Array): void {
+    const { sums, shared, uses, rim, first, sides } = this;
+    const opposite = (vertex: number, i: number): number => first[i]! + ((vertex - first[i]! + 2) % 4);
+    const goesOn = (vertex: number, i: number): boolean =>
+      sides[i] === 4 && rim[shared[vertex]!] === 1 && rim[shared[opposite(vertex, i)]!] === 0;
+    const counts = new Uint8Array(uses.length);
+    const means = out.slice();
+    sums.fill(0);
+    this.eachCorner((vertex, i) => {
+      if (!goesOn(vertex, i)) return;
+      const group = shared[vertex]!;
+      counts[group]!++;
+      for (let c = 0; c < channels; c++) {
+        const mean = means[channels * vertex + c]!;
+        const on = 2 * values[channels * i + c]! - means[channels * opposite(vertex, i) + c]!;
+        sums[channels * group + c]! += Math.min(mean + Math.abs(mean), Math.max(mean - Math.abs(mean), on));
+      }
+    });
+    this.eachCorner((vertex) => {
+      const group = shared[vertex]!;
+      if (counts[group] === 0) return;
+      for (let c = 0; c < channels; c++) out[channels * vertex + c] = sums[channels * group + c]! / counts[group]!;
+    });
   }
 
   /** Positions and normals of vertices, the distance from the edge (0 at corners, 1 at centres), triangles, and edges. */

@@ -1,5 +1,14 @@
 // What the page and the server say to each other; the table is in crates/fredholm-cli/src/view/protocol.rs.
 
+/** What F_ij is. */
+export type Discretisation = 'galerkin' | 'collocation' | 'nystrom';
+/** What light is on each patch: constant, linear, quadratic. */
+export type Degree = 'p0' | 'p1' | 'p2';
+export interface Kind {
+  method: Discretisation;
+  space: Degree;
+}
+
 export type Solver = 'southwell' | 'gauss-seidel' | 'jacobi' | 'successive' | 'gmres';
 
 export interface Camera {
@@ -29,19 +38,34 @@ export interface Scene {
   camera: Camera;
   /** From radiance to a screen on which 1 is white. */
   exposure: number;
+  /** What begins; none of a recording. */
+  kind: Kind | null;
   solvers: Solver[];
+  /** Of the run of now: whether F is stored, without which there is only shooting, and its largest row sum. */
   stored: boolean;
   row_sum: number;
 }
 
 export type Command =
-  | { type: 'start'; solvers: Solver[]; lamps: number[]; reflectance: number[][] }
+  | { type: 'start'; kind: Kind; solvers: Solver[]; lamps: number[]; reflectance: number[][] }
   | { type: 'play'; passes: number }
   | { type: 'pause' }
   | { type: 'step' }
   | { type: 'factors'; patch: number }
   | { type: 'relight'; reflectance: number[][]; version: number }
-  | { type: 'export'; format: 'csv' | 'npz' | 'json' | 'png'; camera?: Camera & { aspect: number } };
+  | { type: 'export'; format: Format; camera?: Camera & { aspect: number }; shown?: Shown };
+
+export type Format = 'csv' | 'npz' | 'json' | 'png' | 'exr' | 'vtu' | 'glb';
+
+/** Light that is shown, and which the server does not have. */
+export interface Shown {
+  /** Three numbers for each patch, f32, in base64. */
+  radiosity: string;
+  lamps: number[];
+  reflectance: number[][];
+  /** Of the solver's course; none of a sum over lamps. */
+  moment?: { iteration: number; work: number; residual: number };
+}
 
 export enum State {
   Running,
@@ -73,7 +97,10 @@ export interface Frame {
 
 export type Message =
   | { type: 'assembly'; done: number; of: number }
-  | { type: 'started'; run: number; solvers: Solver[]; norm: number; target: number }
+  | {
+      type: 'started'; run: number; kind: Kind; solvers: Solver[]; unknowns: number; stored: boolean; row_sum: number | null;
+      norm: number | null; target: number;
+    }
   | { type: 'error'; message: string }
   | { type: 'frame'; frame: Frame }
   | { type: 'factors'; patch: number; row: Float32Array; column: Float32Array }

@@ -8,6 +8,7 @@ export class Relit {
   /** Whether this is wanted in place of a solver's course. */
   active = false;
   private version = 0;
+  private asked = false;
   private parts: (Float32Array | undefined)[];
   private sum: Float32Array;
 
@@ -21,11 +22,19 @@ export class Relit {
 
   /** The number of a new request; what answers older ones is no longer wanted. */
   ask(): number {
+    this.asked = true;
     return ++this.version;
   }
 
   get isAsked(): boolean {
-    return this.version > 0;
+    return this.asked;
+  }
+
+  /** Forgets all, and wants none of what was asked for: the method is another. */
+  forget(): void {
+    this.asked = false;
+    this.version++;
+    this.parts.fill(undefined);
   }
 
   /** Takes the light of a lamp; says whether it was wanted. */

@@ -1,7 +1,7 @@
 // The solvers of now: their frames, and which moment of them is shown.
 
 import { History } from './history';
-import { State, type Frame, type Solver } from './protocol';
+import { State, type Frame, type Kind, type Solver } from './protocol';
 
 export class Run {
   readonly histories: History[];
@@ -10,9 +10,13 @@ export class Run {
 
   constructor(
     readonly number: number,
+    readonly kind: Kind,
     readonly solvers: Solver[],
-    readonly norm: number,
-    readonly target: number,
+    /** How many; a shot is that of one of them. */
+    readonly unknowns: number,
+    /** What it is the light of. */
+    readonly lamps: number[],
+    readonly reflectance: number[][],
   ) {
     this.histories = solvers.map(() => new History(solvers.length));
   }

@@ -1,6 +1,6 @@
 // What a user has chosen, kept in the address, so that a sight can be bookmarked and sent.
 
-import type { Scene, Solver } from './protocol';
+import type { Degree, Discretisation, Scene, Solver } from './protocol';
 import type { Tone } from './view';
 
 const DISPLAYS = ['light', 'radiosity', 'irradiance', 'unshot', 'error', 'difference', 'received', 'sent'] as const;
@@ -11,6 +11,9 @@ export const offered = (scene: Scene): Display[] =>
   DISPLAYS.filter((display) => scene.solvers.length > 0 || (display !== 'received' && display !== 'sent'));
 
 export interface Settings {
+  /** How the equation becomes numbers. */
+  method: Discretisation;
+  space: Degree;
   solver: Solver;
   rival: Solver | undefined;
   display: Display;
@@ -38,6 +41,8 @@ export interface Settings {
 
 export function initial(scene: Scene, materials: number[]): Settings {
   return {
+    method: scene.kind?.method ?? 'galerkin',
+    space: scene.kind?.space ?? 'p0',
     solver: scene.solvers[0] ?? 'southwell',
     rival: undefined,
     display: 'light',
@@ -78,6 +83,8 @@ export function read(hash: string, scene: Scene, settings: Settings): Settings {
   const patch = number('patch', 0, scene.patches - 1);
   const solver = one('solver', scene.solvers, settings.solver);
   return {
+    method: one('method', ['galerkin', 'collocation', 'nystrom'], settings.method),
+    space: one('space', ['p0', 'p1', 'p2'], settings.space),
     solver,
     rival: scene.solvers.find((rival) => rival === said.get('rival') && rival !== solver),
     display: one('show', offered(scene), settings.display),
@@ -106,6 +113,8 @@ export function write(settings: Settings, first: Settings): string {
     if (value === undefined || value === usual) return;
     said.set(key, typeof value === 'boolean' ? (value ? '1' : '0') : String(value));
   };
+  say('method', settings.method, first.method);
+  say('space', settings.space, first.space);
   say('solver', settings.solver, first.solver);
   say('rival', settings.rival, undefined);
   say('show', settings.display, first.display);

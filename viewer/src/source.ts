@@ -33,6 +33,8 @@ class Live implements Source {
     ]);
     const socket = new WebSocket(`ws://${location.host}/session`);
     socket.binaryType = 'arraybuffer';
+    // Until a run begins and says it.
+    Object.assign(scene, { stored: scene.solvers.length > 1, row_sum: 1 });
     return new Live(scene, new Float32Array(geometry), socket);
   }
 
@@ -61,7 +63,7 @@ async function get(path: string): Promise<Response> {
 /** What `fredholm radiosity --html` writes into the page. */
 interface Recorded {
   scene: Scene;
-  started: { solvers: Scene['solvers']; norm: number; target: number };
+  started: Omit<Extract<Message, { type: 'started' }>, 'type' | 'run'>;
   geometry: string;
   /** Heads as in the protocol; then a scale, f32, and f16 parts of it: 3 of radiosity, 1 of residual, for each patch. */
   frames: string[];
@@ -75,7 +77,7 @@ class Recording implements Source {
 
   constructor(text: string) {
     this.recorded = JSON.parse(text) as Recorded;
-    this.scene = this.recorded.scene;
+    this.scene = { ...this.recorded.scene, stored: false, row_sum: 1 };
     this.corners = new Float32Array(bytes(this.recorded.geometry));
   }
 

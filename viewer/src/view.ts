@@ -211,12 +211,4 @@ export class View {
     const hit = this.patches.pick(this.camera.position.toArray() as V, direction.normalize().toArray() as V);
     return hit && { ...hit, picture };
   }
-
-  /** The picture as PNG. */
-  async png(): Promise<Blob> {
-    this.render();
-    return new Promise((resolve, reject) =>
-      this.canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('this browser makes no PNG'))), 'image/png'),
-    );
-  }
 }

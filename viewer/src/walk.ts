@@ -1,4 +1,4 @@
-// Walking: drag to look around, W A S D or the arrows to go, Q and E down and up. The eye stays where it is put.
+// Walking: drag to look around; W A S D or the arrows, or a pad under a thumb, to go; Q and E down and up. The eye stays where it is put.
 
 import { Quaternion, Vector3, type PerspectiveCamera } from 'three';
 
@@ -16,6 +16,10 @@ const TURN = 0.004;
 export class Walk {
   enabled = false;
   private readonly held = new Set<string>();
+  /** What a pad asks for: to the right, up and forward, each from −1 to 1. */
+  readonly push: [number, number, number] = [0, 0, 0];
+  /** The pointer that looks around, and where it was last: by touch no browser need say how far it moved. */
+  private looking: { pointer: number; x: number; y: number } | undefined;
 
   constructor(
     private readonly camera: PerspectiveCamera,
@@ -24,9 +28,21 @@ export class Walk {
     canvas: HTMLElement,
     private readonly changed: () => void,
   ) {
-    canvas.addEventListener('pointermove', (event) => {
-      if (this.enabled && event.buttons & 1) this.turn(event.movementX, event.movementY);
+    canvas.addEventListener('pointerdown', (event) => {
+      if (!this.enabled || this.looking || !(event.buttons & 1)) return;
+      this.looking = { pointer: event.pointerId, x: event.clientX, y: event.clientY };
     });
+    canvas.addEventListener('pointermove', (event) => {
+      const { looking } = this;
+      if (!this.enabled || looking?.pointer !== event.pointerId) return;
+      this.turn(event.clientX - looking.x, event.clientY - looking.y);
+      [looking.x, looking.y] = [event.clientX, event.clientY];
+    });
+    for (const end of ['pointerup', 'pointercancel'] as const) {
+      addEventListener(end, (event) => {
+        if (this.looking?.pointer === event.pointerId) this.looking = undefined;
+      });
+    }
     canvas.addEventListener('keydown', (event) => {
       if (this.enabled && event.code in KEYS && !event.ctrlKey && !event.metaKey) {
         this.held.add(event.code);
@@ -40,7 +56,7 @@ export class Walk {
   }
 
   get moving(): boolean {
-    return this.enabled && this.held.size > 0;
+    return this.enabled && (this.held.size > 0 || this.push.some((part) => part !== 0));
   }
 
   /** Goes on for so many seconds. */
@@ -53,7 +69,10 @@ export class Walk {
       const [x, y, z] = KEYS[key]!;
       step.addScaledVector(right, x).addScaledVector(this.camera.up, y).addScaledVector(forward, z);
     }
-    step.setLength(step.length() > 0 ? SPEED * this.diagonal * Math.min(seconds, 0.1) : 0);
+    const [x, y, z] = this.push;
+    step.addScaledVector(right, x).addScaledVector(this.camera.up, y).addScaledVector(forward, z);
+    // Keys are on or off, a pad is pushed more or less.
+    step.clampLength(0, 1).multiplyScalar(SPEED * this.diagonal * Math.min(seconds, 0.1));
     this.camera.position.add(step);
     this.target.add(step);
   }

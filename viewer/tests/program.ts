@@ -12,6 +12,9 @@ export const FURNACE = here('../../scenes/furnace/furnace.toml');
 /** Runs the command to its end. */
 export const run = (...words: string[]): void => void execFileSync(PROGRAM, words);
 
+/** Runs the command to its end and reads what it tells, as JSON. */
+export const told = (...words: string[]): unknown => JSON.parse(execFileSync(PROGRAM, words, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }));
+
 export interface Server {
   address: string;
   stop(): void;

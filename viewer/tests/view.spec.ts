@@ -1,7 +1,7 @@
 // fredholm view in a browser: the light converges, is asked, dimmed, raced and sent on.
 
-import { readFileSync, statSync } from 'node:fs';
-import { expect, test } from '@playwright/test';
+import { readFileSync } from 'node:fs';
+import { expect, test, type Page } from '@playwright/test';
 import { converged, FURNACE, meanColour, residual, run, serve, slide, visit, type Server } from './program';
 
 let cornell: Server;
@@ -164,17 +164,84 @@ test('a phone has room for all of it, in the dark too', async ({ page }) => {
   }
 });
 
+/** Clicks a button of those that save, and reads what comes. */
+async function saved(page: Page, name: string): Promise<Buffer> {
+  const download = page.waitForEvent('download');
+  await page.getByRole('button', { name, exact: true }).click();
+  return readFileSync(await (await download).path());
+}
+
 test('every format can be saved', async ({ page }) => {
+  // Two of them are pictures that are computed.
+  test.slow();
   await visit(page, `${cornell.address}#solver=gauss-seidel&speed=50`);
   await converged(page);
   await page.getByText('Save', { exact: true }).click();
-  for (const [name, begin] of [['CSV', ''], ['NPZ', 'PK'], ['JSON', '{'], ['picture', '\x89PNG']] as const) {
-    const saved = page.waitForEvent('download');
-    await page.getByRole('button', { name, exact: true }).click();
-    const path = await (await saved).path();
-    expect(statSync(path).size, name).toBeGreaterThan(500);
-    expect(readFileSync(path, 'latin1').slice(0, begin.length)).toBe(begin);
+  for (const [name, begin] of [
+    ['CSV', 'x,y,z,'], ['NPZ', 'PK'], ['JSON', '{'], ['picture', '\x89PNG'], ['photograph', '\x89PNG'],
+    ['EXR', '\x76\x2f\x31\x01'], ['VTU', '<?xml'], ['GLB', 'glTF'],
+  ] as const) {
+    const content = await saved(page, name);
+    expect(content.length, name).toBeGreaterThan(500);
+    expect(content.toString('latin1').slice(0, begin.length)).toBe(begin);
   }
+  // A picture in false colours has its scale with it.
+  for (const [display, more] of [['light', 0], ['radiosity', 150]] as const) {
+    await page.getByLabel('quantity').selectOption(display);
+    await expect(page.locator('#legend')).toBeVisible({ visible: more > 0 });
+    const { width } = (await page.locator('#picture').boundingBox())!;
+    expect((await saved(page, 'picture')).readUInt32BE(16)).toBe(Math.round(width) + more);
+  }
+});
+
+/** The mean over patches of the red radiosity in a table, of those that emit nothing. */
+function meanRed(table: Buffer): number {
+  const [head, ...rows] = table.toString().trim().split('\n').map((line) => line.split(','));
+  const at = (name: string): number => head!.indexOf(name);
+  const reflecting = rows.filter((row) => Number(row[at('emission_g')]) === 0);
+  return reflecting.reduce((sum, row) => sum + Number(row[at('radiosity_r')]), 0) / reflecting.length;
+}
+
+test('what is saved is what is shown: a moment gone by, or the light as relit', async ({ page }) => {
+  await visit(page, `${cornell.address}#solver=gauss-seidel&speed=50`);
+  await converged(page);
+  await page.getByText('Save', { exact: true }).click();
+  const newest = meanRed(await saved(page, 'CSV'));
+  expect(newest).toBeGreaterThan(0.01);
+  await slide(page, '#scrub', 0);
+  await expect(page.locator('body')).toHaveAttribute('data-iteration', '0');
+  expect(meanRed(await saved(page, 'CSV')), 'before the first sweep only the lamps shine').toBe(0);
+  const report = JSON.parse((await saved(page, 'JSON')).toString()) as { iterations: number; state: string };
+  expect([report.iterations, report.state]).toEqual([0, 'a moment of the solver']);
+  await slide(page, '#lamps input', 0.5);
+  await expect(page.locator('#formula')).toContainText('Σ');
+  await expect(async () => expect(meanRed(await saved(page, 'CSV')) / newest).toBeCloseTo(0.5, 2)).toPass();
+  expect(JSON.parse((await saved(page, 'JSON')).toString())).toMatchObject({ iterations: null, residual: null, state: 'a sum over lamps' });
+});
+
+test('the method is switched, and the same light comes of each', async ({ page }) => {
+  await visit(page, `${furnace.address}#solver=gauss-seidel&speed=50&tone=linear&exposure=-2`);
+  await converged(page);
+  const before = await meanColour(page);
+  const shown = async (tolerance: number): Promise<void> => {
+    await expect(page.locator('body')).not.toHaveAttribute('data-state', 'Asked');
+    await converged(page);
+    const now = await meanColour(page);
+    for (const c of [0, 1]) expect(Math.abs(now[c]! / before[c]! - 1)).toBeLessThan(tolerance);
+  };
+  await page.locator('#space').selectOption('p1');
+  await shown(0.02);
+  await expect(page).toHaveURL(/space=p1/);
+  await page.locator('#method-of').selectOption('collocation');
+  await shown(0.02);
+  await page.locator('#space').selectOption('p0');
+  // Point to point is wrong where patches touch, by as much as they are large.
+  await page.locator('#method-of').selectOption('nystrom');
+  await shown(0.3);
+  await expect(page).toHaveURL(/method=nystrom/);
+  // Lamps are dimmed with this method, too.
+  await slide(page, '#lamps label:first-child input', 0.5);
+  await expect(page.locator('#now')).toContainText('Relit: the solution');
 });
 
 test('a page of its own shows the same without a server', async ({ page }, info) => {

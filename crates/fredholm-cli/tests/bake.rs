@@ -37,6 +37,25 @@ fn all_outputs_are_written_and_the_numbers_told() {
 }
 
 #[test]
+fn light_goes_to_vertices_and_how_far_it_is_off_between_them_is_told() {
+    let folder = folder("bake-vertices");
+    let output = fredholm(&folder, "bake --accuracy 10% --vertex-colours -o a.glb --json -");
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert_eq!(names(&folder), ["a.glb"]);
+    let (report, table) = (json(&output.stdout), text(&output.stderr));
+    let number = |key: &str| report[key].as_f64().unwrap();
+    assert_eq!((&report["form"], &report["outcome"]), (&"vertex-colours".into(), &"met".into()));
+    assert!(number("vertex_error") <= 0.1 && number("triangles") > number("vertices"), "{report}");
+    for words in ["linear between vertices is", "radiance B/π, in W/(m² sr) by the materials' radiance_of_1"]
+    {
+        assert!(table.contains(words), "no `{words}` in: {table}");
+    }
+    let bytes = fs::read(folder.join("a.glb")).unwrap();
+    let file = String::from_utf8_lossy(&bytes);
+    assert!(file.contains("COLOR_0") && file.contains("× extras.radiance_of_1 of the material"));
+}
+
+#[test]
 fn what_is_done_to_a_mesh_and_that_no_light_is_there_are_told() {
     let folder = folder("bake-told");
     fs::write(folder.join("a.mtl"), "newmtl floor\nKd .5 .5 .5\nnewmtl lamp\nKe 1 1 1\n").unwrap();
@@ -64,6 +83,7 @@ fn what_cannot_be_baked_is_told_and_leaves_nothing() {
             ("bake -o none/a.glb", 1, &["cannot write none/a.glb"]),
             ("bake -o a.glb --irradiance a.glb", 1, &["two outputs", "a.glb"]),
             ("bake --accuracy 0%", 2, &["a percentage such as 1%"]),
+            ("bake --vertex-colours --irradiance a.exr", 2, &["--vertex-colours", "--irradiance"]),
         ],
         |words| fredholm(&folder, words),
     );

@@ -314,7 +314,11 @@ fn the_light_of_now_can_be_had_in_every_format() {
     assert_eq!((name.as_str(), rows), ("cornell-box.csv", scene["patches"].as_u64().unwrap() + 1));
     assert!(file("npz").1.starts_with(b"PK"));
     assert!(file("png").1.starts_with(b"\x89PNG"));
+    let (name, cells) = file("vtu");
+    assert!(name == "cornell-box.vtu" && text(&cells).contains("radiosity (W/m²)"));
+    assert!(file("glb").1.starts_with(b"glTF"));
     let report = json(&file("json").1);
+    assert_eq!((&report["method"], &report["space"]), (&"galerkin".into(), &"p0".into()));
     // The same as without a window.
     let folder = folder("view-same");
     let solved = json(&fredholm(&folder, "radiosity --patch-count 200 --json -").stdout);
@@ -324,6 +328,41 @@ fn the_light_of_now_can_be_had_in_every_format() {
             assert!((a - b).abs() < 1e-4 * b.abs().max(1e-2), "{key} of surface {k}: {a} and {b}");
         }
     }
+}
+
+#[test]
+fn a_file_is_of_the_light_that_a_page_sends_back() {
+    let server = Server::cornell();
+    let scene = server.scene();
+    let mut session = server.session(None).unwrap();
+    session.start(&scene, "gauss-seidel");
+    let patches = scene["patches"].as_u64().unwrap() as usize;
+    let reflectance: Vec<_> =
+        scene["surfaces"].as_array().unwrap().iter().map(|s| s["reflectance"].clone()).collect();
+    // 12 bytes a patch are 16 letters: (1, 2, 4), or no number at all.
+    let shown = |letters: &str, lamps: &[f64]| {
+        said!({"type": "export", "format": "csv", "shown": {
+            "radiosity": letters.repeat(patches), "lamps": lamps, "reflectance": reflectance }})
+    };
+    for (bad, words) in [
+        (shown("AACAPwAAAEAAAIBA", &[1.0, 1.0]), "factors for 1 lamps"),
+        (shown("AACAPwAAAEAAAIBAAACAPwAAAEAAAIBA", &[1.0]), "the light that is shown has"),
+        (shown("AADAfwAAwH8AAMB/", &[1.0]), "not finite"),
+        (shown("AACAPwAAAEAAAI!A", &[1.0]), "base64"),
+    ] {
+        session.say(&bad);
+        let error = session.error();
+        assert!(error.contains(words), "{error}");
+    }
+    session.say(&shown("AACAPwAAAEAAAIBA", &[1.0]));
+    let table = session.hear(|message| match message {
+        Message::Binary(bytes) if bytes[0] == 4 => Some(text(&bytes[8 + bytes[4] as usize..])),
+        _ => None,
+    });
+    let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    let at = rows[0].iter().position(|name| *name == "radiosity_r").unwrap();
+    assert_eq!(rows.len(), patches + 1);
+    assert!(rows[1..].iter().all(|row| row[at..at + 3] == ["1", "2", "4"]), "{:?}", rows[1]);
 }
 
 #[test]
@@ -352,7 +391,7 @@ fn what_cannot_be_shown_is_refused() {
             ("view empty.obj --no-open", 1, &["empty.obj"]),
             ("view --no-open --solver direct", 1, &["no steps"]),
             ("view --no-open --solver jacobi --patch-count 21000", 1, &["only southwell"]),
-            ("view --no-open --method nystrom", 1, &["galerkin or collocation"]),
+            ("view --no-open --bands spectral", 1, &["red, green and blue", "--html FILE"]),
             ("view --no-open --patch-size 1e-9", 1, &["larger"]),
             ("view --port 99999", 2, &["99999"]),
             ("radiosity --html box.html --solver direct", 1, &["no steps"]),

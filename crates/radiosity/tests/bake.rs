@@ -6,8 +6,8 @@ use exr::prelude::{ReadChannels, ReadLayers, read};
 use fredholm::value::Rgb;
 use glam::DVec3;
 use radiosity::adaptive::{Domain, Field, Request, solve};
-use radiosity::bake::{Atlas, Lightmap};
-use radiosity::export::{write_exr, write_glb};
+use radiosity::bake::{Atlas, Lightmap, VertexLight};
+use radiosity::export::{write_exr, write_glb, write_vertex_glb};
 use radiosity::polygon::Polygon;
 use radiosity::scene::{Camera, Scene, cornell_box};
 use std::f64::consts::{FRAC_1_PI, PI};
@@ -126,6 +126,8 @@ fn openexr_has_the_irradiance_and_its_unit() {
             assert_eq!(*got, expected.0.map(|c| c as f32));
         }
         assert!(image.layer_data.attributes.comments.unwrap().to_string().contains("W/m²"));
+        // A note that would be lost is not written as none.
+        assert!(write_exr(lightmap, "ρ H/π", &mut Vec::new()).is_err());
         // The lamp's power is 1 in all, and all of it arrives somewhere first.
         assert!(lightmap.irradiance.iter().any(|h| h.0[0] > 0.1 * PI));
     });
@@ -136,13 +138,134 @@ fn the_same_bytes_come_from_any_number_of_threads() {
     let bytes = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
+            let mut bytes = Vec::new();
             baked(|scene, _, _, lightmap| {
-                let mut bytes = Vec::new();
                 write_glb(scene, lightmap, &camera(), &serde_json::json!({}), &mut bytes).unwrap();
                 write_exr(lightmap, "", &mut bytes).unwrap();
-                bytes
-            })
+            });
+            with_vertices(|scene, _, _, light| {
+                write_vertex_glb(scene, light, &camera(), &serde_json::json!({}), &mut bytes).unwrap();
+            });
+            bytes
         })
     };
     assert!(bytes(1) == bytes(3));
+}
+
+/// A triangle of a file: its surface's name, its corners, and the radiance there.
+struct Triangle {
+    surface: String,
+    corners: [DVec3; 3],
+    radiance: [[f64; 3]; 3],
+}
+
+/// The triangles of a binary glTF with colours of vertices, as the `gltf` crate reads them.
+fn triangles(bytes: &[u8]) -> Vec<Triangle> {
+    let gltf::Gltf { document, blob } = gltf::Gltf::from_slice(bytes).unwrap();
+    let blob = blob.unwrap();
+    let mut all = Vec::new();
+    for mesh in document.meshes() {
+        let primitive = mesh.primitives().next().unwrap();
+        let material = primitive.material();
+        assert!(material.unlit(), "a viewer would add light of its own");
+        let extras: serde_json::Value =
+            serde_json::from_str(material.extras().as_ref().unwrap().get()).unwrap();
+        let one = extras["radiance_of_1"].as_f64().unwrap();
+        let reader = primitive.reader(|_| Some(&blob));
+        let positions: Vec<[f32; 3]> = reader.read_positions().unwrap().collect();
+        let gltf::mesh::util::ReadColors::RgbF32(colours) = reader.read_colors(0).unwrap() else {
+            panic!("no floats")
+        };
+        let colours: Vec<[f32; 3]> = colours.collect();
+        assert!(colours.iter().flatten().all(|c| (0.0..=1.0).contains(c)), "glTF wants colours from 0 to 1");
+        let corners: Vec<u32> = reader.read_indices().unwrap().into_u32().collect();
+        all.extend(corners.chunks(3).map(|t| {
+            let at = |k: usize| t[k] as usize;
+            Triangle {
+                surface: mesh.name().unwrap().to_owned(),
+                corners: [0, 1, 2].map(|k| DVec3::from(positions[at(k)].map(f64::from))),
+                radiance: [0, 1, 2].map(|k| colours[at(k)].map(|c| f64::from(c) * one)),
+            }
+        }));
+    }
+    all
+}
+
+fn with_vertices<R>(
+    look: impl FnOnce(&Scene<Rgb>, &[Polygon], &Field<'_, Rgb>, &VertexLight<Rgb>) -> R,
+) -> R {
+    let scene = cornell_box();
+    let polygons = scene.polygons();
+    let domain = Domain::new(&scene, &polygons).unwrap();
+    let field = || solve(&domain, &Request { accuracy: 0.1, ..Request::default() }, |_| true);
+    let light = VertexLight::new(&scene, field(), &polygons, VERTEX_ERROR, &|_, _| ());
+    look(&scene, &polygons, &field(), &light)
+}
+
+const VERTEX_ERROR: f64 = 0.03;
+
+#[test]
+fn colours_of_vertices_are_the_radiance_of_every_surface() {
+    with_vertices(|scene, polygons, field, light| {
+        assert!(light.error <= VERTEX_ERROR, "{}", light.error);
+        let mut bytes = Vec::new();
+        write_vertex_glb(scene, light, &camera(), &serde_json::json!({}), &mut bytes).unwrap();
+        let all = triangles(&bytes);
+        assert_eq!(all.len(), light.size()[1]);
+        let (mut square, mut whole) = (0.0, 0.0);
+        for triangle in &all {
+            let [a, b, c] = triangle.corners;
+            let area = 0.5 * (b - a).cross(c - a).length();
+            let middle = (a + b + c) / 3.0;
+            let outside = |k: &usize| {
+                polygons[*k].distance_outside(middle).max(0.0) + polygons[*k].height_of(middle).abs()
+            };
+            let face = (0..polygons.len()).min_by(|k, l| outside(k).total_cmp(&outside(l))).unwrap();
+            // Fronts are where they were.
+            assert!((b - a).cross(c - a).dot(polygons[face].normal()) > 0.0, "{}", triangle.surface);
+            if field.is_covered(face as u32, middle) {
+                continue;
+            }
+            let expected = field.radiosity(face as u32, middle).0;
+            for (c, expected) in expected.iter().enumerate() {
+                let mean = triangle.radiance.iter().map(|corner| corner[c]).sum::<f64>() / 3.0;
+                square += area * (PI * mean - expected).powi(2);
+            }
+            whole += area;
+        }
+        // The middles are further from the corners than the points that are looked at, or nearer: at random.
+        let error = (square / whole).sqrt() / field.scale();
+        assert!(error < 1.5 * VERTEX_ERROR, "{error}");
+        let area = |name: &str| -> f64 {
+            let own = all.iter().filter(|triangle| triangle.surface == name);
+            own.map(|t| 0.5 * (t.corners[1] - t.corners[0]).cross(t.corners[2] - t.corners[0]).length()).sum()
+        };
+        for surface in &scene.surfaces {
+            assert!((area(&surface.name) / surface.area() - 1.0).abs() < 1e-6, "{}", surface.name);
+        }
+    });
+}
+
+#[test]
+fn a_mesh_with_colours_has_no_cracks() {
+    with_vertices(|_, polygons, _, light| {
+        for surface in &light.surfaces {
+            let mut edges = std::collections::HashMap::new();
+            let bits = |k: u32| surface.points[k as usize].as_vec3().to_array().map(f32::to_bits);
+            for t in &surface.triangles {
+                for (a, b) in [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])] {
+                    *edges.entry([bits(a), bits(b)]).or_insert(0) += 1;
+                }
+            }
+            // Within a face each edge is that of a neighbour as well, the other way; at its rim it lies on an edge of the face.
+            for [a, b] in edges.keys().filter(|[a, b]| !edges.contains_key(&[*b, *a])) {
+                let middle = [a, b].map(|v| DVec3::from(v.map(|c| f64::from(f32::from_bits(c)))));
+                let middle = middle[0].midpoint(middle[1]);
+                let is_rim = |polygon: &Polygon| {
+                    polygon.height_of(middle).abs() < 1e-6 && polygon.distance_outside(middle).abs() < 1e-6
+                };
+                assert!(polygons.iter().any(is_rim), "a crack at {middle}");
+            }
+        }
+    });
 }

@@ -53,8 +53,8 @@ fn mean_radiosity(
         accuracy: 1e-3,
         tolerance,
         iterations: 100_000,
-        ambient: false,
         memory: 1 << 31,
+        ..Options::default()
     };
     let solution = solve(&patches, &visibility(scene), &options, &mut Unobserved).unwrap();
     let of = |k: usize| {
@@ -108,8 +108,7 @@ fn seventy_six_bands_are_one_matrix_and_seventy_six_solutions() {
         accuracy: 1e-2,
         tolerance: 1e-9,
         iterations: 1000,
-        ambient: false,
-        memory: 1 << 30,
+        ..Options::default()
     };
     let visibility = visibility(&spectral);
     let all = solve(&patches, &visibility, &options, &mut Unobserved).unwrap();

@@ -32,6 +32,9 @@ fn distance(patches: &Patches<Rgb>, u: &[Rgb], v: &[Rgb]) -> f64 {
     norm(&|i| square(u[i] - v[i])) / norm(&|i| square(v[i]))
 }
 
+/// The standard error of a row of the matrix that links are compared to.
+const OWN: f64 = 3e-4;
+
 #[test]
 fn links_bring_what_the_matrix_brings_within_the_error_that_they_tell() {
     for (scene, count) in [
@@ -41,13 +44,14 @@ fn links_bring_what_the_matrix_brings_within_the_error_that_they_tell() {
         (scenes::building(2), 1000),
     ] {
         let (patches, visibility) = cut(&scene, count);
-        let dense = solved(&patches, &visibility, Storage::Dense, 3e-4);
+        // The matrix has an error of its own: sampled rows, of which each errs by so much.
+        let dense = solved(&patches, &visibility, Storage::Dense, OWN);
         for accuracy in [3e-3, 3e-4] {
             let found = solved(&patches, &visibility, Storage::Hierarchical, accuracy);
             let told = found.links.unwrap().judged.links;
             let error = distance(&patches, &found.radiosity, &dense.radiosity);
             println!("{} {accuracy}: {error:.2e} told {told:.2e}, {} links", scene.name, found.form_factors);
-            assert!(error < told && told < 0.012, "{} {accuracy}: {error} of {told}", scene.name);
+            assert!(error < told + OWN && told < 0.012, "{} {accuracy}: {error} of {told}", scene.name);
         }
     }
 }

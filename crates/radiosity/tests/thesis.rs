@@ -70,8 +70,8 @@ fn the_radiosity_equation_is_a_fredholm_equation_of_the_second_kind() {
         accuracy: 1e-2,
         tolerance: 1e-12,
         iterations: 100,
-        ambient: false,
         memory: 1 << 30,
+        ..Options::default()
     };
     let b = solve(&room.patches, &room.visibility, &options, &mut Unobserved).unwrap().radiosity;
     let f = room.form_factors();
@@ -361,8 +361,8 @@ fn a_white_furnace_has_the_radiosity_e_over_one_minus_rho() {
             accuracy: 1e-4,
             tolerance: 1e-10,
             iterations: 100_000,
-            ambient: false,
             memory: 1 << 30,
+            ..Options::default()
         };
         let solution = solve(&patches, &visibility(&furnace), &options, &mut Unobserved).unwrap();
         distance(&solution.radiosity, &vec![8.0; patches.len()])

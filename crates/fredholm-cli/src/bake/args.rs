@@ -11,16 +11,21 @@ each material's emissive strength brings to W/(m² sr), or to cd/m² with --phot
 it is: base colours are black, so that lamps of theirs add nothing. An --irradiance map has H itself, linear,
 in the same (u, v): multiply by reflectance/π to have the radiance that a lightmap adds.
 
+With --vertex-colours there is no texture: faces are cut until light is linear between vertices to the
+accuracy, and COLOR_0, linear, is the radiance B/π over the largest; materials are unlit, and their
+extras.radiance_of_1 is the radiance of a colour of 1.
+
 Examples:
   fredholm bake                                       the Cornell box, cornell-box.glb
   fredholm bake room.toml -o room.glb                 to an accuracy of 1 %
   fredholm bake room.obj --accuracy 0.3% --size 2048  finer in light, and in texels
-  fredholm bake room.toml --irradiance room.exr       the lightmap alone as well, for an engine";
+  fredholm bake room.toml --irradiance room.exr       the lightmap alone as well, for an engine
+  fredholm bake room.obj --vertex-colours             no texture: light at the vertices of a finer mesh";
 
 /// Options of `fredholm bake`.
 #[derive(Debug, Args)]
 pub struct Bake {
-    /// The scene: .toml, or a mesh in metres (.obj with its .mtl, .stl, .ply); the Cornell box if left out
+    /// The scene: .toml, or a mesh in metres (.obj with its .mtl, .glb, .gltf, .stl, .ply); the Cornell box if left out
     pub scene: Option<PathBuf>,
 
     /// The binary glTF to write [default: the scene's name, .glb]
@@ -30,6 +35,10 @@ pub struct Bake {
     /// The irradiance of every texel as well, as OpenEXR
     #[arg(long, value_name = "FILE.exr")]
     pub irradiance: Option<PathBuf>,
+
+    /// Light as colours of vertices, of faces that are cut where it asks for that, in place of a texture
+    #[arg(long, conflicts_with_all = ["irradiance", "size"])]
+    pub vertex_colours: bool,
 
     /// The error that the light may have, in the mean square over all surfaces [default: 1%]
     #[arg(long, value_name = "PERCENT", value_parser = percent)]

@@ -1,9 +1,11 @@
 //! `fredholm bake`: the light of a scene, to an accuracy, laid around its surfaces and written for other programs.
 
 pub mod args;
+mod laid;
 mod report;
 
 use self::args::Bake;
+use self::laid::Light;
 use self::report::Report;
 use crate::ending::Ending;
 use crate::json::{self, Json};
@@ -11,16 +13,13 @@ use crate::output::{Output, clear_on_interrupt, refuse_twins};
 use crate::radiosity::accuracy::Progress;
 use crate::radiosity::outputs::stem;
 use crate::radiosity::timing::{Seconds, timed};
-use crate::terminal::{bar, warn};
+use crate::terminal::warn;
 use anyhow::{Context, Result};
 use radiosity::adaptive::{Domain, Request, solve};
-use radiosity::bake::{Atlas, Lightmap};
-use radiosity::export::{write_exr, write_glb};
+use radiosity::bake::Atlas;
 use radiosity::render::Colour;
 use radiosity::scene::{Camera, CleanUp, Scene, SolveOptions, Units, cornell_box, load_in};
 use radiosity::visibility::Visibility;
-use serde_json::json;
-use std::io::Write;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -66,7 +65,9 @@ fn walk<V: Colour>(
 
     let polygons = scene.polygons();
     // What does not fit is told before anything is solved.
-    let atlas = timed(&mut seconds.patches, || Atlas::new(&polygons, args.size))?;
+    let atlas =
+        (!args.vertex_colours).then(|| timed(&mut seconds.patches, || Atlas::new(&polygons, args.size)));
+    let atlas = atlas.transpose()?;
     let domain = timed(&mut seconds.visibility, || Domain::new(scene, &polygons))?;
     let progress = Progress::new(accuracy);
     let request = Request { accuracy, ..Request::default() };
@@ -79,39 +80,19 @@ fn walk<V: Colour>(
     progress.finish();
 
     let bound = field.bound();
-    let texel = 1.0 / atlas.density;
-    let bar = bar("texels", polygons.len() as u64);
-    let lightmap = timed(&mut seconds.picture, || {
-        let field = field.for_points(atlas.size * atlas.size);
-        Lightmap::new(atlas, &field, &polygons, &|done| bar.set_position(done as u64))
-    });
-    bar.finish_and_clear();
-
+    let light = timed(&mut seconds.picture, || Light::new(atlas, (scene, &polygons), field, accuracy));
     let camera =
         scene.camera.unwrap_or_else(|| Camera::automatic(&polygons, &Visibility::new(&polygons), 1.0));
-    let (radiance, irradiance) = (units.radiance(), units.irradiance());
-    let extras = json!({
-        "quantity": "radiance that leaves the surface, B/π: emissive texture × emissiveStrength",
-        "unit": radiance, "error": bound.total(), "accuracy": accuracy,
-        "error_is": "of the radiosity that surfaces reflect, in the mean square over all of them, relative to its own",
-    });
-    let mut files = vec![timed(&mut seconds.write, || {
-        let mut bytes = Vec::new();
-        write_glb(scene, &lightmap, &camera, &extras, &mut bytes)?;
-        glb.write(|out| out.write_all(&bytes))
-    })?];
+    let glb = light.write_glb((scene, &camera, units), (accuracy, bound.total()), (glb, &mut seconds))?;
+    let mut files = vec![glb];
     if let Some(exr) = exr {
-        let note = format!(
-            "irradiance H in {irradiance}, linear, Rec. 709; radiance added by a surface of reflectance ρ: ρ H/π; error {:.2} %",
-            100.0 * bound.total()
-        );
-        files.push(timed(&mut seconds.write, || exr.write(|out| write_exr(&lightmap, &note, out)))?);
+        files.extend(timed(&mut seconds.write, || light.write_exr(exr, units, bound.total()))?);
     }
     files.extend(json.as_ref().and_then(Json::file));
     seconds.total = start.elapsed().as_secs_f64();
-    let mut report = Report::new(scene, accuracy, bound, (args.size, texel), units, seconds, files);
+    let mut report = Report::new(scene, accuracy, bound, light.laid(), units, seconds, files);
     report.clean_up = clean_up;
-    report.dark = lightmap.irradiance.iter().all(|h| h.magnitude() == 0.0);
+    report.dark = light.is_dark(scene);
     json::tell(json, &report, &report.table())?;
     Ok(if report.is_met() { Ending::Converged } else { Ending::NotConverged })
 }

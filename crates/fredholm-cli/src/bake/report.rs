@@ -1,8 +1,9 @@
 //! The numbers of a baked scene: what `--json` writes and the table shows.
 
+use super::laid::Laid;
 use crate::radiosity::lights::Lights;
 use crate::radiosity::memory;
-use crate::radiosity::table::{last, of_mesh};
+use crate::radiosity::table::{grouped, last, of_mesh};
 use crate::radiosity::timing::Seconds;
 use crate::text::{self, percent};
 use fredholm::value::Value;
@@ -23,10 +24,9 @@ pub struct Report {
     discretisation_error: f64,
     form_factor_error: f64,
     iteration_error: f64,
-    /// Texels across and down.
-    size: usize,
-    /// The side of a texel on a surface, in metres.
-    texel: f64,
+    /// A texture, or vertices.
+    #[serde(flatten)]
+    laid: Laid,
     polygons: usize,
     /// What shines beside the surfaces.
     #[serde(flatten)]
@@ -45,12 +45,12 @@ pub struct Report {
 }
 
 impl Report {
-    /// The numbers of a scene on an atlas of so many texels of some size.
+    /// The numbers of a scene whose light is laid on something.
     pub fn new<V: Value>(
         scene: &Scene<V>,
         accuracy: f64,
         bound: Bound,
-        (size, texel): (usize, f64),
+        laid: Laid,
         units: Units,
         seconds: Seconds,
         files: Vec<PathBuf>,
@@ -58,14 +58,13 @@ impl Report {
         let error = bound.total();
         Self {
             scene: scene.name.clone(),
-            outcome: if error <= accuracy { "met" } else { "not met" },
+            outcome: if error <= accuracy && laid.error() <= accuracy { "met" } else { "not met" },
             accuracy,
             error,
             discretisation_error: bound.discretisation,
             form_factor_error: bound.form_factors,
             iteration_error: bound.iteration,
-            size,
-            texel,
+            laid,
             polygons: scene.surfaces.iter().map(|surface| surface.polygons.len()).sum(),
             lights: Lights::new(scene, units),
             smooth_normals: scene.curved_polygons(),
@@ -86,25 +85,47 @@ impl Report {
 
     /// The table, a line per matter.
     pub fn table(&self) -> String {
-        let met = if self.is_met() { "" } else { "; NOT MET: no more patches fit" };
-        let Self { size, polygons, .. } = self;
-        let mut lines = vec![
-            (
-                "error",
-                format!(
-                    "{} of the light that surfaces reflect, in the mean square{met}",
-                    percent(self.error)
-                ),
+        let not_met = |error: f64, why: &str| match error <= self.accuracy {
+            true => String::new(),
+            false => format!("; NOT MET: {why}"),
+        };
+        let mut lines = vec![(
+            "error",
+            format!(
+                "{} of the light that surfaces reflect, in the mean square{}",
+                percent(self.error),
+                not_met(self.error, "no more patches fit")
             ),
-            (
-                "atlas",
-                format!(
-                    "{size} × {size} texels of {} m, {polygons} polygons",
-                    text::short(round(self.texel))
+        )];
+        match self.laid {
+            Laid::Texture { size, texel } => lines.extend([
+                (
+                    "atlas",
+                    format!(
+                        "{size} × {size} texels of {} m, {} polygons",
+                        text::short(round(texel)),
+                        self.polygons
+                    ),
                 ),
-            ),
-            ("texture", format!("radiance B/π, in {}", self.radiance_unit)),
-        ];
+                ("texture", format!("radiance B/π, in {}", self.radiance_unit)),
+            ]),
+            Laid::VertexColours { vertices, triangles, vertex_error } => lines.extend([
+                (
+                    "mesh",
+                    format!(
+                        "{} vertices, {} triangles; linear between vertices is {} off{}",
+                        grouped(vertices as u64),
+                        grouped(triangles as u64),
+                        percent(vertex_error),
+                        not_met(vertex_error, "no more triangles fit")
+                    ),
+                ),
+                (
+                    "colours",
+                    format!("radiance B/π, in {} by the materials' radiance_of_1", self.radiance_unit),
+                ),
+            ]),
+        }
         lines.splice(0..0, self.lights.lines());
         lines.extend(of_mesh(self.smooth_normals, self.clean_up));
         lines.extend(last(self.peak_memory_bytes, self.dark, &self.seconds, &self.files));

@@ -4,6 +4,7 @@ use crate::args::{at_least_one, number, percent, positive, with_extension};
 use clap::{Args, ValueEnum};
 use radiosity::elements::Degree;
 use radiosity::solve;
+use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 /// What stands below the options.
@@ -291,7 +292,8 @@ pub enum Bands {
 }
 
 /// [`solve::Method`], with words for the command line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Method {
     /// Patch to patch: means over patches, orthogonal projection
     Galerkin,
@@ -302,7 +304,8 @@ pub enum Method {
 }
 
 /// [`Degree`], with words for the command line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Space {
     /// Constant
     P0,

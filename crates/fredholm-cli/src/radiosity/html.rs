@@ -3,6 +3,7 @@
 use super::domain::Domain;
 use super::settings::Settings;
 use crate::args::name;
+use crate::view::Kind;
 use crate::view::description::{Description, geometry};
 use crate::view::page;
 use crate::view::protocol::{Head, State, head};
@@ -26,7 +27,9 @@ const GROWTH: f64 = 1.12;
 
 /// The frames of a run.
 pub struct Recording {
+    kind: Kind,
     solver: Solver,
+    unknowns: usize,
     frames: Vec<Frame>,
     next: usize,
 }
@@ -39,15 +42,16 @@ struct Frame {
 }
 
 impl Recording {
-    /// Of the solver that is going to run, if it has steps.
-    pub fn new(settings: &Settings) -> Result<Self> {
+    /// Of the solver that is going to run, if it has steps, on so many unknowns.
+    pub fn new(settings: &Settings, unknowns: usize) -> Result<Self> {
         let solver = Solver::watched(settings.solver).with_context(|| {
             format!(
                 "--html shows how light converges, and the {} solver has no steps",
                 name(&settings.solver)
             )
         })?;
-        Ok(Self { solver, frames: Vec::new(), next: 1 })
+        let kind = Kind { method: settings.method, space: settings.space };
+        Ok(Self { kind, solver, unknowns, frames: Vec::new(), next: 1 })
     }
 
     /// Keeps an iteration if it is its turn, or perhaps the last; `means` makes values of patches of the unknowns.
@@ -75,7 +79,7 @@ impl Recording {
     ) {
         let colours = |values: &[V]| -> Vec<Rgb> { values.iter().map(Colour::to_rgb).collect() };
         let (radiosity, residual) = (colours(u), colours(r));
-        let cost = if self.solver.shoots() { 1.0 / patches.len() as f64 } else { 1.0 };
+        let cost = if self.solver.shoots() { 1.0 / self.unknowns as f64 } else { 1.0 };
         let head = Head {
             lane: 0,
             run: 0,
@@ -120,7 +124,16 @@ impl Recording {
         let Domain { scene, patches, visibility, .. } = domain;
         let recorded = Recorded {
             scene: Description::new((scene, units), (patches, visibility), size, camera),
-            started: Started { solvers: [self.solver], norm: solution.norm, target: solution.target },
+            started: Started {
+                kind: self.kind,
+                solvers: [self.solver],
+                unknowns: self.unknowns,
+                stored: false,
+                // What a bound needs is in the norm.
+                row_sum: 1.0,
+                norm: solution.norm,
+                target: solution.target,
+            },
             geometry: STANDARD.encode(geometry(&patches.polygons)),
             frames: self.frames.iter().enumerate().map(finished).collect(),
         };
@@ -156,7 +169,11 @@ struct Recorded {
 
 #[derive(Serialize)]
 struct Started {
+    kind: Kind,
     solvers: [Solver; 1],
+    unknowns: usize,
+    stored: bool,
+    row_sum: f64,
     norm: f64,
     target: f64,
 }

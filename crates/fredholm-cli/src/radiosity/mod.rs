@@ -100,11 +100,12 @@ fn walk<V: Colour>(
     let frames = frames.map(|folder| Frames::new(folder, args, (&settings, units), &domain));
     let Domain { patches: mesh, visibility, .. } = &domain;
     let space = settings.space.degree().map(|degree| Space::new(&mesh.polygons, degree));
-    let recording = html.is_some().then(|| Recording::new(&settings)).transpose()?;
+    let unknowns = space.as_ref().map_or(mesh.len(), Space::dim);
+    let recording = html.is_some().then(|| Recording::new(&settings, unknowns)).transpose()?;
     let resume = args.resume.as_deref().map(checkpoint::open).transpose()?;
     let on = (checkpoint.stop(), resume);
     let mut watcher = Watcher::new((&settings, units), mesh, space.as_ref(), (frames, recording), on);
-    let options = settings.options(space.as_ref().map_or(mesh.len(), Space::dim));
+    let options = settings.options(unknowns);
     let solved = match &space {
         None => solve(mesh, visibility, &options, &mut watcher),
         Some(space) => {

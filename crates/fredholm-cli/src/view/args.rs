@@ -1,15 +1,15 @@
 //! What may be said to `fredholm view`.
 
 use crate::args::{at_least_one, number, positive};
-use crate::radiosity::args::{Method, Solver};
+use crate::radiosity::args::{Bands, Method, Solver, Space};
 use clap::Args;
 use std::path::PathBuf;
 
 /// What stands below the options.
 pub const EXAMPLES: &str = "\
 The page is served to this machine alone, at the address that is printed, until Ctrl-C. Each window has
-a solver of its own, which can be paused, stepped, scrubbed back, raced against another and restarted;
-lamps are dimmed and materials changed while one looks. Nothing is loaded from the network.
+a solver of its own, which can be paused, stepped, scrubbed back, raced against another and restarted
+with another method; lamps are dimmed and materials changed while one looks. Nothing is loaded from the network.
 
 Examples:
   fredholm view                                       the Cornell box
@@ -21,13 +21,17 @@ Examples:
 /// Options of `fredholm view`. What is `None` is left to the scene file, and then to a default.
 #[derive(Debug, Args)]
 pub struct View {
-    /// The scene: .toml, or a mesh in metres (.obj with its .mtl, .stl, .ply); the Cornell box if left out
+    /// The scene: .toml, or a mesh in metres (.obj with its .mtl, .glb, .gltf, .stl, .ply); the Cornell box if left out
     #[arg(help_heading = "Scene")]
     pub scene: Option<PathBuf>,
 
     /// Lumens in place of watts: lx and cd/m² [default: as the scene's `units` say]
     #[arg(long, requires = "scene", help_heading = "Scene")]
     pub photometric: bool,
+
+    /// Red, green and blue are what windows solve; all bands are refused with what to do instead
+    #[arg(long, value_enum, default_value_t = Bands::Rgb, hide = true)]
+    pub bands: Bands,
 
     /// The longest that an edge of a patch may be, in metres
     #[arg(long, value_name = "METRES", value_parser = positive, help_heading = "Scene")]
@@ -43,9 +47,13 @@ pub struct View {
     )]
     pub patch_count: Option<usize>,
 
-    /// How the equation becomes numbers [default: galerkin]
+    /// How the equation becomes numbers at first [default: galerkin]
     #[arg(long, value_enum, help_heading = "Equation")]
     pub method: Option<Method>,
+
+    /// What light is on each patch at first: what is shown is its mean
+    #[arg(long, value_enum, default_value_t = Space::P0, help_heading = "Equation")]
+    pub space: Space,
 
     /// How the numbers are solved for at first [default: southwell]
     #[arg(long, value_enum, help_heading = "Equation")]

@@ -1,5 +1,6 @@
 //! `/scene.json` and `/geometry.bin`: what a page has to know of a scene before it sees light.
 
+use super::discrete::{Discrete, Kind};
 use super::lamps::Lamp;
 use super::protocol::numbers;
 use super::solvers::Solver;
@@ -32,12 +33,10 @@ pub struct Description {
     pub camera: Viewpoint,
     /// From radiance to a screen on which 1 is white.
     pub exposure: f64,
+    /// The method and the polynomials that begin; none where nothing is solved.
+    pub kind: Option<Kind>,
     /// The solvers that can be watched, the first of which begins.
     pub solvers: Vec<Solver>,
-    /// Whether F is stored, without which there is only shooting.
-    pub stored: bool,
-    /// The largest row sum of F, at most.
-    pub row_sum: f64,
 }
 
 /// Units, as they are printed.
@@ -133,20 +132,19 @@ impl Description {
             lamps: Vec::new(),
             camera: camera.into(),
             exposure: exposure(patches, visibility).scale,
+            kind: None,
             solvers: Vec::new(),
-            stored: false,
-            row_sum: 1.0,
         }
     }
 
     /// With what a page can change.
-    pub fn with(self, lamps: &[Lamp], first: Solver, stored: bool, row_sum: f64) -> Self {
-        let others = Solver::ALL.into_iter().filter(|solver| *solver != first && (stored || solver.shoots()));
+    pub fn with(self, discrete: &Discrete, first: Solver) -> Self {
+        let can = |solver: &Solver| discrete.is_stored || solver.shoots();
+        let others = Solver::ALL.into_iter().filter(|solver| *solver != first && can(solver));
         Self {
-            lamps: lamps.iter().map(Dimmable::new).collect(),
+            lamps: discrete.lamps.iter().map(Dimmable::new).collect(),
+            kind: Some(discrete.kind),
             solvers: std::iter::once(first).chain(others).collect(),
-            stored,
-            row_sum,
             ..self
         }
     }

@@ -1,53 +1,104 @@
-//! The light as it is now, as a file: the same writers as those of `fredholm radiosity`.
+//! The light that a page shows, as a file: the same writers as those of `fredholm radiosity`.
 
-use super::protocol::{Eye, Format};
+use super::kept::Kept;
+use super::protocol::{Eye, Format, Moment, Shown};
 use super::setup::Setup;
 use super::solvers::Lane;
 use super::stage::Stage;
 use crate::radiosity::report::{Named, Surface, surfaces};
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, bail};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use fredholm::operator::Rows;
 use fredholm::system::error_bound;
-use fredholm::value::{Rgb, Value};
+use fredholm::value::{Rgb, Spectrum, Value};
 use image::ImageFormat;
-use radiosity::export::{Field, write_csv, write_npz};
+use radiosity::bake::VertexLight;
+use radiosity::elements::Space;
+use radiosity::export::{Field, write_csv, write_exr_picture, write_npz, write_vertex_glb, write_vtu};
 use radiosity::patches::Patches;
-use radiosity::render::{Exposure, View, final_picture};
+use radiosity::render::{Exposure, Picture, View, final_picture};
 use radiosity::scene::{Camera, Scene, Units};
 use rayon::prelude::*;
 use serde::Serialize;
+use serde_json::json;
 use std::io::Cursor;
+
+/// What is solved, and with which F.
+#[derive(Clone, Copy)]
+pub struct Source<'a> {
+    /// The scene.
+    pub stage: &'a Stage,
+    /// What is solved in it.
+    pub setup: &'a Setup,
+    /// F.
+    pub kept: &'a Kept<'a>,
+    /// Whose coefficients the unknowns are.
+    pub space: &'a Space<'a>,
+}
 
 /// The name of the file and its content.
 pub fn export(
-    stage: &Stage,
-    setup: &Setup,
-    (lane, kept): (&Lane<'_>, &impl Rows),
+    source: Source<'_>,
+    (lane, norm): (&Lane<'_>, f64),
     format: Format,
     camera: Option<Eye>,
+    shown: Option<&Shown>,
 ) -> Result<(String, Vec<u8>)> {
+    let Source { stage, setup, .. } = source;
+    let of_shown = shown.map(|shown| {
+        Setup::new(stage, setup.kind, setup.solvers.clone(), shown.lamps.clone(), shown.reflectance.clone())
+    });
+    let of_shown = of_shown.transpose()?;
+    let setup = of_shown.as_ref().unwrap_or(setup);
+    let newest = Moment { iteration: lane.iteration(), work: lane.work(), residual: lane.residual() };
+    let (radiosity, moment) = match shown {
+        Some(shown) => (colours(&shown.radiosity, stage.patches.len())?, shown.moment),
+        None => (lane.shown(), Some(newest)),
+    };
     let (scene, patches) = setup.applied(stage);
-    let radiosity = lane.shown();
-    let light =
-        Light { stage, scene, irradiance: irradiance(&patches, setup, kept, &radiosity), patches, radiosity };
+    let irradiance = irradiance(Source { setup, ..source }, &patches, &radiosity);
+    let light = Light { stage, scene, patches, radiosity, irradiance };
     let (ending, content) = match format {
         Format::Csv => ("csv", light.table()?),
         Format::Npz => ("npz", light.arrays()?),
-        Format::Json => ("json", light.report(setup, lane)?),
-        Format::Png => ("png", light.picture(camera)?),
+        Format::Vtu => ("vtu", light.cells()?),
+        Format::Glb => ("glb", light.triangles(camera)?),
+        Format::Json => ("json", light.report(setup, moment, norm)?),
+        Format::Png => ("png", light.photograph(camera)?),
+        Format::Exr => ("exr", light.radiance(camera)?),
     };
     Ok((format!("{}.{ending}", crate::radiosity::outputs::stem(&stage.scene.name)), content))
 }
 
-/// H of each patch: (B − E)/ρ, and where a patch does not reflect, what its row says.
-fn irradiance(patches: &Patches<Rgb>, setup: &Setup, kept: &impl Rows, radiosity: &[Rgb]) -> Vec<Rgb> {
+/// Reads what a page has encoded: a finite colour for each patch.
+fn colours(text: &str, count: usize) -> Result<Vec<Rgb>> {
+    let bytes = STANDARD.decode(text).context("the light that is shown is not base64")?;
+    if bytes.len() != 12 * count {
+        bail!("the light that is shown has {} bytes; {count} patches have {}", bytes.len(), 12 * count);
+    }
+    let numbers: Vec<f64> =
+        bytes.chunks_exact(4).map(|b| f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]))).collect();
+    match numbers.iter().all(|number| number.is_finite()) {
+        true => Ok(numbers.chunks_exact(3).map(|c| Spectrum([c[0], c[1], c[2]])).collect()),
+        false => bail!("the light that is shown is not finite; restart with a method that converges"),
+    }
+}
+
+/// H of each patch: (B − E)/ρ, and where a patch does not reflect, what its rows say.
+fn irradiance(source: Source<'_>, patches: &Patches<Rgb>, radiosity: &[Rgb]) -> Vec<Rgb> {
+    let Source { setup, kept, space, .. } = source;
+    let unknowns = space.spread(radiosity);
     let of = |buffer: &mut Vec<f64>, i: usize| {
         let (b, e, rho) = (radiosity[i], patches.emission[i], patches.reflectance[i]);
         if rho.channels().iter().all(|rho| *rho > 0.0) {
-            (b - e) / rho
-        } else {
-            kept.row(i, buffer).dot(radiosity) + setup.lit[i]
+            return (b - e) / rho;
         }
+        let range = space.range(i);
+        let area: f64 = space.weights()[range.clone()].iter().sum();
+        range.fold(Rgb::splat(0.0), |sum, a| {
+            sum + (kept.row(a, buffer).dot(&unknowns) + setup.lit[a]) * (space.weights()[a] / area)
+        })
     };
     (0..radiosity.len()).into_par_iter().map_init(Vec::new, of).collect()
 }
@@ -80,6 +131,28 @@ impl Light<'_> {
         Ok(bytes.into_inner())
     }
 
+    fn cells(&self) -> Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        match self.stage.units {
+            Units::Radiometric => write_vtu(&self.field(), &mut bytes)?,
+            Units::Photometric => self.grey(|field| Ok(write_vtu(field, &mut bytes)?))?,
+        }
+        Ok(bytes)
+    }
+
+    fn triangles(&self, camera: Option<Eye>) -> Result<Vec<u8>> {
+        let Self { stage, scene, patches, radiosity, .. } = self;
+        let camera = camera.map_or_else(|| Ok(stage.camera()), looking)?;
+        let light = VertexLight::of_patches(scene, patches, radiosity);
+        let extras = json!({
+            "quantity": "radiance that leaves the surface, B/π: COLOR_0, linear, × extras.radiance_of_1 of the material",
+            "unit": stage.units.radiance(),
+        });
+        let mut bytes = Vec::new();
+        write_vertex_glb(scene, &light, &camera, &extras, &mut bytes)?;
+        Ok(bytes)
+    }
+
     fn field(&self) -> Field<'_, Rgb> {
         let light = (self.radiosity.as_slice(), self.irradiance.as_slice());
         Field::light(&self.scene, &self.patches, light, self.stage.units)
@@ -96,21 +169,25 @@ impl Light<'_> {
         write(&Field::light(&scene, &patches, (&radiosity, &irradiance), self.stage.units))
     }
 
-    fn report(&self, setup: &Setup, lane: &Lane<'_>) -> Result<Vec<u8>> {
+    fn report(&self, setup: &Setup, moment: Option<Moment>, norm: f64) -> Result<Vec<u8>> {
         let Self { stage, scene, patches, radiosity, irradiance } = self;
-        let norm = stage.norm(&patches.reflectance);
+        let discrete = stage.discrete(setup.kind);
         let report = Report {
             scene: &scene.name,
             patches: patches.len(),
             patch_size: stage.how.size,
+            method: setup.kind.method,
+            space: setup.kind.space,
+            unknowns: discrete.dim(),
+            state: if moment.is_some() { "a moment of the solver" } else { "a sum over lamps" },
             solver: setup.solvers[0],
-            iterations: lane.iteration(),
-            passes: lane.work(),
-            residual: lane.residual(),
+            iterations: moment.map(|moment| moment.iteration),
+            passes: moment.map(|moment| moment.work),
+            residual: moment.map(|moment| moment.residual),
             target: setup.target,
-            error_bound: error_bound(lane.residual(), norm),
-            norm,
-            lamps: stage
+            error_bound: moment.and_then(|moment| error_bound(moment.residual, norm)),
+            norm: Some(norm).filter(|norm| norm.is_finite()),
+            lamps: discrete
                 .lamps
                 .iter()
                 .map(|lamp| lamp.name.as_str())
@@ -124,7 +201,23 @@ impl Light<'_> {
         Ok(text)
     }
 
-    fn picture(&self, camera: Option<Eye>) -> Result<Vec<u8>> {
+    fn photograph(&self, camera: Option<Eye>) -> Result<Vec<u8>> {
+        let picture = self.picture(camera)?;
+        let image = picture.develop(Exposure::automatic(&picture));
+        let mut bytes = Cursor::new(Vec::new());
+        image.write_to(&mut bytes, ImageFormat::Png)?;
+        Ok(bytes.into_inner())
+    }
+
+    fn radiance(&self, camera: Option<Eye>) -> Result<Vec<u8>> {
+        let unit = self.stage.units.radiance().replace('²', "^2");
+        let note = format!("radiance L in {unit}, linear, Rec. 709");
+        let mut bytes = Vec::new();
+        write_exr_picture(&self.picture(camera)?, &note, &mut bytes)?;
+        Ok(bytes)
+    }
+
+    fn picture(&self, camera: Option<Eye>) -> Result<Picture> {
         let Self { stage, scene, patches, radiosity, .. } = self;
         let (camera, aspect) = match camera {
             Some(eye) => (looking(eye)?, eye.aspect),
@@ -133,11 +226,7 @@ impl Light<'_> {
         let aspect = aspect.clamp(0.25, 4.0);
         let (width, height) = ((SIDE * aspect.sqrt()) as usize, (SIDE / aspect.sqrt()) as usize);
         let view = View { camera, width, height, samples: 9, gather: 64 };
-        let picture = final_picture(&view, scene, patches, &stage.visibility, radiosity, &|_| ());
-        let image = picture.develop(Exposure::automatic(&picture));
-        let mut bytes = Cursor::new(Vec::new());
-        image.write_to(&mut bytes, ImageFormat::Png)?;
-        Ok(bytes.into_inner())
+        Ok(final_picture(&view, scene, patches, &stage.visibility, radiosity, &|_| ()))
     }
 }
 
@@ -165,14 +254,20 @@ struct Report<'a> {
     scene: &'a str,
     patches: usize,
     patch_size: f64,
+    method: crate::radiosity::args::Method,
+    space: crate::radiosity::args::Space,
+    unknowns: usize,
+    /// Of which these numbers are.
+    state: &'static str,
     solver: super::solvers::Solver,
-    iterations: usize,
-    /// Form factors used over n².
-    passes: f64,
-    residual: f64,
+    /// None of a sum over lamps, as the next three.
+    iterations: Option<usize>,
+    /// Form factors used over n², n the number of unknowns.
+    passes: Option<f64>,
+    residual: Option<f64>,
     target: f64,
     error_bound: Option<f64>,
-    norm: f64,
+    norm: Option<f64>,
     /// How many times as bright as in the file.
     lamps: std::collections::BTreeMap<&'a str, f64>,
     units: Named,

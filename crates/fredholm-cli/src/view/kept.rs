@@ -1,15 +1,15 @@
 //! F as it is at hand: stored, or while it is not, computed row by row.
 
+use super::discrete::Factors;
 use super::shared::Shared;
 use fredholm::operator::{Columns, Dense, Line, Matrix, OnTheFly, Rows};
-use radiosity::form_factor::FormFactors;
 
 /// Where the form factors come from.
 pub enum Kept<'a> {
     /// All of them are stored.
     Stored(&'a Dense<f32>),
     /// Each is computed when it is asked for, and columns are kept as long as there is room.
-    Computed(OnTheFly<&'a FormFactors<'a>>, &'a Shared),
+    Computed(OnTheFly<&'a Factors<'a>>, &'a Shared),
 }
 
 impl Matrix for Kept<'_> {

@@ -1,7 +1,8 @@
 //! f = Σ_k g_k f_k: the source as a sum over lamps, since the solution is the same sum, u = Σ_k g_k u_k.
 
 use fredholm::value::{Rgb, Value};
-use radiosity::lights::mean_irradiances;
+use radiosity::elements::{Degree, Space};
+use radiosity::lights::{irradiance, mean_irradiances};
 use radiosity::patches::Patches;
 use radiosity::scene::{Light, Scene};
 use radiosity::visibility::Visibility;
@@ -14,7 +15,7 @@ pub struct Lamp {
     pub surfaces: Vec<usize>,
     /// The lights of the scene that are no surfaces, by number; none of a surface.
     pub points: Vec<usize>,
-    /// What these send to each patch, in the unit of irradiance; empty if it is a surface.
+    /// What these send to each unknown, in the unit of irradiance; empty if it is a surface.
     irradiance: Vec<Rgb>,
 }
 
@@ -22,7 +23,12 @@ pub struct Lamp {
 const MOST: usize = 24;
 
 /// The surfaces that emit, in the order of the scene, then what else shines.
-pub fn lamps(scene: &Scene<Rgb>, patches: &Patches<Rgb>, visibility: &Visibility) -> Vec<Lamp> {
+pub fn lamps(
+    scene: &Scene<Rgb>,
+    patches: &Patches<Rgb>,
+    space: &Space<'_>,
+    visibility: &Visibility,
+) -> Vec<Lamp> {
     let emits = |s: &usize| scene.surfaces[*s].emission.magnitude() > 0.0;
     let of_surface = |s: usize| Lamp {
         name: scene.surfaces[s].name.clone(),
@@ -34,7 +40,10 @@ pub fn lamps(scene: &Scene<Rgb>, patches: &Patches<Rgb>, visibility: &Visibility
     let mut alone = patches.clone();
     for (k, light) in scene.lights.iter().enumerate() {
         alone.lights = vec![light.clone()];
-        let irradiance = mean_irradiances(&alone, visibility);
+        let irradiance = match space.degree() {
+            Degree::Constant => mean_irradiances(&alone, visibility),
+            _ => space.interpolate(|node| irradiance(&alone.lights, visibility, node)),
+        };
         let name = match light {
             Light::Point(_) => format!("{} {}", light.kind(), k + 1),
             Light::Sun(_) | Light::Sky(_) => light.kind().to_owned(),
@@ -69,11 +78,17 @@ fn together(lamps: Vec<Lamp>) -> Lamp {
 }
 
 impl Lamp {
-    /// Adds g f_k = g (E_k + ρ H_k) to a source.
-    pub fn add_to(&self, source: &mut [Rgb], gain: f64, patches: &Patches<Rgb>, reflectance: &[Rgb]) {
-        for (i, f) in source.iter_mut().enumerate() {
-            if self.surfaces.binary_search(&(patches.surface[i] as usize)).is_ok() {
-                *f += patches.emission[i] * gain;
+    /// Adds g f_k = g (E_k + ρ H_k) to a source of unknowns, each of which lies on a surface of the scene.
+    pub fn add_to(
+        &self,
+        source: &mut [Rgb],
+        gain: f64,
+        (scene, surface): (&Scene<Rgb>, &[u32]),
+        reflectance: &[Rgb],
+    ) {
+        for (f, &surface) in source.iter_mut().zip(surface) {
+            if self.surfaces.binary_search(&(surface as usize)).is_ok() {
+                *f += scene.surfaces[surface as usize].emission * gain;
             }
         }
         self.add_points_to(source, gain, reflectance);
@@ -86,9 +101,9 @@ impl Lamp {
     }
 
     /// f_k, of this lamp alone.
-    pub fn source(&self, patches: &Patches<Rgb>, reflectance: &[Rgb]) -> Vec<Rgb> {
-        let mut source = vec![Rgb::splat(0.0); patches.len()];
-        self.add_to(&mut source, 1.0, patches, reflectance);
+    pub fn source(&self, on: (&Scene<Rgb>, &[u32]), reflectance: &[Rgb]) -> Vec<Rgb> {
+        let mut source = vec![Rgb::splat(0.0); reflectance.len()];
+        self.add_to(&mut source, 1.0, on, reflectance);
         source
     }
 }
@@ -120,10 +135,11 @@ mod tests {
         let lit = mean_irradiances(&patches, &visibility);
         let mut rest = solve::source(&patches.emission, &patches.reflectance, &lit);
         let size = max_norm(&rest);
-        let lamps = lamps(&scene, &patches, &visibility);
+        let space = Space::new(&patches.polygons, Degree::Constant);
+        let lamps = lamps(&scene, &patches, &space, &visibility);
         assert_eq!(lamps.len(), 3);
         for lamp in &lamps {
-            lamp.add_to(&mut rest, -1.0, &patches, &patches.reflectance);
+            lamp.add_to(&mut rest, -1.0, (&scene, &patches.surface), &patches.reflectance);
         }
         assert!(max_norm(&rest) < 1e-12 * size);
     }
@@ -135,10 +151,11 @@ mod tests {
         scene.lights.resize(40, first);
         let patches = Patches::new(&scene, 0.5).unwrap();
         let visibility = Visibility::new(&scene.polygons());
-        let all = lamps(&scene, &patches, &visibility);
+        let space = Space::new(&patches.polygons, Degree::Constant);
+        let all = lamps(&scene, &patches, &space, &visibility);
         assert_eq!((all.len(), all[23].name.as_str()), (24, "the other 18 lamps"));
         let sum = all.iter().fold(vec![Rgb::splat(0.0); patches.len()], |mut sum, lamp| {
-            lamp.add_to(&mut sum, 1.0, &patches, &patches.reflectance);
+            lamp.add_to(&mut sum, 1.0, (&scene, &patches.surface), &patches.reflectance);
             sum
         });
         let lit = mean_irradiances(&patches, &visibility);

@@ -5,6 +5,7 @@
 
 pub mod args;
 pub mod description;
+mod discrete;
 mod export;
 mod guard;
 mod inbox;
@@ -24,12 +25,13 @@ mod stage;
 
 use self::args::View;
 use self::description::{Description, geometry};
+pub use self::discrete::Kind;
 use self::guard::Guard;
 use self::server::{Hall, SEATS};
 use self::solvers::Solver;
 use self::stage::{Discretisation, Stage};
 use crate::ending::Ending;
-use crate::radiosity::args::Method;
+use crate::radiosity::args::{Bands, Method};
 use crate::radiosity::memory;
 use crate::radiosity::settings::wish;
 use crate::terminal::{Stream, say, warn};
@@ -54,25 +56,26 @@ pub fn command(args: &View) -> Result<Ending> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         pool.build_global().with_context(|| format!("cannot start {threads} threads"))?;
     }
+    if args.bands == Bands::Spectral {
+        bail!(
+            "windows solve red, green and blue; `fredholm radiosity --bands spectral --html FILE` makes a page of all bands"
+        );
+    }
     let (scene, units, wishes) = scene(args)?;
     let solver = solver(args, &wishes)?;
     let how = discretisation(args, &wishes, &scene)?;
     let listener = listen(args.port)?;
     let port = listener.local_addr()?.port();
     let stage = Stage::new(scene, units, how)?;
+    let first = stage.first();
     let solver = match solver {
-        Some(solver) if !solver.shoots() && !stage.is_stored() => bail!("{}", session::too_large(&stage)),
+        Some(solver) if !solver.shoots() && !first.is_stored => bail!("{}", session::too_large(first)),
         Some(solver) => solver,
         None => Solver::Southwell,
     };
     let hall = Arc::new(hall(stage, solver, port)?);
-    if hall.stage.is_stored() {
-        let hall = Arc::clone(&hall);
-        // A pool of their own: in the common one they would be in the way of every shot until all of them are there.
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(rayon::current_num_threads()).build()?;
-        let assemble = move || pool.install(|| hall.stage.assemble());
-        std::thread::Builder::new().name("form factors".into()).spawn(assemble)?;
-    }
+    hall.stage.want(how.kind);
+    store(Arc::clone(&hall))?;
     let address = format!("http://127.0.0.1:{port}/");
     say(
         Stream::Out,
@@ -91,6 +94,20 @@ pub fn command(args: &View) -> Result<Ending> {
     Ok(Ending::Converged)
 }
 
+/// Stores the form factors that are wanted, one kind after the other, as long as the process lives.
+fn store(hall: Arc<Hall>) -> Result<()> {
+    // A pool of their own: in the common one they would be in the way of every shot until all of them are there.
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(rayon::current_num_threads()).build()?;
+    let work = move || {
+        loop {
+            let discrete = hall.stage.discrete(hall.stage.wanted());
+            pool.install(|| discrete.assemble(&hall.stage));
+        }
+    };
+    std::thread::Builder::new().name("form factors".into()).spawn(work)?;
+    Ok(())
+}
+
 fn hall(stage: Stage, solver: Solver, port: u16) -> Result<Hall> {
     let described = Description::new(
         (&stage.scene, stage.units),
@@ -98,7 +115,7 @@ fn hall(stage: Stage, solver: Solver, port: u16) -> Result<Hall> {
         stage.how.size,
         stage.camera(),
     )
-    .with(&stage.lamps, solver, stage.is_stored(), stage.row_sum());
+    .with(stage.first(), solver);
     Ok(Hall {
         description: serde_json::to_string(&described)?,
         geometry: geometry(&stage.patches.polygons),
@@ -135,9 +152,6 @@ fn solver(args: &View, wishes: &SolveOptions) -> Result<Option<Solver>> {
 fn discretisation(args: &View, wishes: &SolveOptions, scene: &Scene<Rgb>) -> Result<Discretisation> {
     let file = args.scene.as_deref().unwrap_or(Path::new(""));
     let method = args.method.or(wish("method", wishes.method.as_deref(), file)?).unwrap_or(Method::Galerkin);
-    if method == Method::Nystrom {
-        bail!("nystrom's factors between points are not shown: choose --method galerkin or collocation");
-    }
     if wishes.accuracy.is_some() {
         let file = file.display();
         warn(&format!(
@@ -147,7 +161,7 @@ fn discretisation(args: &View, wishes: &SolveOptions, scene: &Scene<Rgb>) -> Res
     let size = args.patch_size.or(wishes.patch_size.filter(|_| args.patch_count.is_none()));
     Ok(Discretisation {
         size: size.unwrap_or_else(|| size_for_count(scene, args.patch_count.unwrap_or(PATCHES))),
-        whole: method == Method::Galerkin,
+        kind: Kind { method, space: args.space },
         accuracy: args.factor_accuracy.or(wishes.factor_accuracy).unwrap_or(1e-3),
         tolerance: args.tolerance.or(wishes.tolerance).unwrap_or(1e-6),
         memory: memory::limit(),

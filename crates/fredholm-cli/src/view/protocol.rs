@@ -11,12 +11,13 @@
 //! | 3 | light of a lamp | kind, lamp, version, state: u32 | B of each patch for that lamp alone, 3 × f32 |
 //! | 4 | a file | kind, bytes of its name: u32 | the name, UTF-8; the file |
 //!
-//! B is what the method shows (u, or u + r where it shoots), r = f + ρFu − u, both in the unit of exitance; `work` is form
-//! factors used over n², `residual` ‖r‖∞, `bound` that of max |u − ũ| (NaN where ‖ρF‖∞ ≥ 1), `unshot` Σ A_i |r_i| as
+//! B is what the method shows (u, or u + r where it shoots), the mean over the patch, r = f + ρFu − u, the largest on the patch, both in the unit of exitance; `work` is form
+//! factors used over n², n the number of unknowns, `residual` ‖r‖∞, `bound` that of max |u − ũ| (NaN where ‖ρF‖∞ ≥ 1), `unshot` Σ A_i |r_i| as
 //! luminance, in W or lm. `shot` is the patch shot last, or [`NONE`].
 
+use super::discrete::Kind;
 use super::solvers::Solver;
-use fredholm::value::{Rgb, Value};
+use fredholm::value::Rgb;
 use serde::{Deserialize, Serialize};
 
 /// In place of the number of a patch: there is none.
@@ -26,9 +27,11 @@ pub const NONE: u32 = u32::MAX;
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Command {
-    /// Begin anew: with one solver or two that race, each lamp so many times as bright as in the file, and a
+    /// Begin anew: with a method, one solver or two that race, each lamp so many times as bright as in the file, and a
     /// reflectance for each surface.
     Start {
+        /// The method and the polynomials on patches; those that a window begins with if left out.
+        kind: Option<Kind>,
         /// The solvers, one or two.
         solvers: Vec<Solver>,
         /// A factor for each lamp.
@@ -57,13 +60,41 @@ pub enum Command {
         /// Is said again with the answers.
         version: u32,
     },
-    /// A file of the light of the first solver as it is now.
+    /// A file of the light that the page shows, or if it does not say of the first solver's as it is now.
     Export {
         /// What kind of file.
         format: Format,
         /// Where a picture is taken from; the scene's camera if left out.
         camera: Option<Eye>,
+        /// The light that is shown.
+        shown: Option<Box<Shown>>,
     },
+}
+
+/// Light that a page shows, which the solver has long left behind or never had.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Shown {
+    /// B of each patch, 3 × f32 in little-endian order, in base64.
+    pub radiosity: String,
+    /// A factor for each lamp that it is of.
+    pub lamps: Vec<f64>,
+    /// Red, green and blue of each surface that it is of.
+    pub reflectance: Vec<[f64; 3]>,
+    /// The moment of the solver's course; none of a sum over lamps.
+    pub moment: Option<Moment>,
+}
+
+/// A moment of a solver's course, as its frame told.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Moment {
+    /// Iterations made.
+    pub iteration: usize,
+    /// Form factors used, in passes.
+    pub work: f64,
+    /// ‖r‖∞.
+    pub residual: f64,
 }
 
 /// A kind of file.
@@ -78,6 +109,12 @@ pub enum Format {
     Json,
     /// A picture with sharp shadows: direct light by formula, the rest gathered.
     Png,
+    /// The same, linear, in W/(m² sr) or cd/m².
+    Exr,
+    /// The patches for ParaView.
+    Vtu,
+    /// The patches as binary glTF, with radiance as colours of vertices.
+    Glb,
 }
 
 /// A camera as the page has it: positions in metres, an angle in degrees.
@@ -111,10 +148,18 @@ pub enum Remark {
     Started {
         /// Its number, which its frames have too.
         run: u32,
+        /// Its method, and the polynomials on patches.
+        kind: Kind,
         /// Its solvers.
         solvers: Vec<Solver>,
-        /// ‖ρF‖∞.
-        norm: f64,
+        /// How many unknowns there are.
+        unknowns: usize,
+        /// Whether F is stored, or going to be, without which there is only shooting.
+        stored: bool,
+        /// max_i Σ_j |F_ij|, at most; none where that is not known.
+        row_sum: Option<f64>,
+        /// ‖ρF‖∞; none where that is not known.
+        norm: Option<f64>,
         /// The residual at which it ends.
         target: f64,
     },
@@ -189,11 +234,11 @@ pub fn head(head: &Head) -> Vec<u8> {
 }
 
 /// A frame: kind 1.
-pub fn frame(told: &Head, radiosity: &[Rgb], residual: &[Rgb]) -> Vec<u8> {
+pub fn frame(told: &Head, radiosity: &[Rgb], residual: impl Iterator<Item = f64>) -> Vec<u8> {
     let mut bytes = head(told);
     bytes.reserve(16 * radiosity.len());
     colours(&mut bytes, radiosity);
-    numbers(&mut bytes, residual.iter().map(Value::magnitude));
+    numbers(&mut bytes, residual);
     bytes
 }
 

@@ -57,6 +57,7 @@ impl Run<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::view::discrete::{Factors, space};
     use crate::view::solvers::Solver;
     use crate::view::stage::tests::cornell;
     use fredholm::system::System;
@@ -64,11 +65,12 @@ mod tests {
     #[test]
     fn no_solver_is_ahead_when_the_time_is_up() {
         let stage = cornell(200);
-        let computed = stage.form_factors();
-        let kept = stage.kept(&computed);
+        let space = space(&stage, stage.how.kind);
+        let computed = Factors::new(&stage, stage.how.kind, &space);
+        let kept = stage.first().kept(&computed);
         let setup = Setup::of(&stage, Solver::GaussSeidel);
         let system = System::new(&setup.source, &setup.reflectance, &kept).unwrap();
-        let lane = |solver| Lane::new(solver, system, &stage.patches.areas, setup.target);
+        let lane = |solver| Lane::new(solver, system, &space, setup.target);
         let lanes = [Solver::GaussSeidel, Solver::Southwell].map(lane).into_iter().collect();
         let mut run = Run { setup: &setup, kept: &kept, norm: 0.5, lanes };
         let past = Instant::now();

@@ -3,6 +3,7 @@
 //! New reflectances start from the old solutions: with v = u − ũ the equation is v = r + ρ ⊙ (F v), r the residual of ũ
 //! under the new ρ, and the same solver finds v.
 
+use super::discrete::{Discrete, Kind};
 use super::kept::Kept;
 use super::protocol::{Message, State, lamp};
 use super::stage::Stage;
@@ -10,9 +11,12 @@ use fredholm::operator::Dense;
 use fredholm::relax::{GaussSeidel, Relaxation};
 use fredholm::system::System;
 use fredholm::value::{Rgb, Value, max_norm};
+use radiosity::elements::Space;
 
 /// The lamps' solutions on their way.
 pub struct Relight {
+    /// Of which unknowns.
+    kind: Kind,
     /// u_k, of each lamp.
     solutions: Vec<Vec<Rgb>>,
     job: Option<Job>,
@@ -32,11 +36,19 @@ const SWEEPS: usize = 2;
 
 impl Relight {
     /// No lamp is solved for yet.
-    pub fn new(stage: &Stage) -> Self {
-        Self { solutions: vec![vec![Rgb::splat(0.0); stage.patches.len()]; stage.lamps.len()], job: None }
+    pub fn new(discrete: &Discrete) -> Self {
+        let dark = vec![Rgb::splat(0.0); discrete.dim()];
+        Self { kind: discrete.kind, solutions: vec![dark; discrete.lamps.len()], job: None }
     }
 
-    /// Asks for all lamps with these reflectances of patches.
+    /// Forgets the solutions if they are of other unknowns.
+    pub fn enter(&mut self, discrete: &Discrete) {
+        if self.kind != discrete.kind {
+            *self = Self::new(discrete);
+        }
+    }
+
+    /// Asks for all lamps with these reflectances of unknowns.
     pub fn ask(&mut self, reflectance: Vec<Rgb>, version: u32) {
         self.job = Some(Job { reflectance, version, lamp: 0, last: f64::INFINITY });
     }
@@ -47,18 +59,24 @@ impl Relight {
     }
 
     /// Does a little of it, and says what came of it.
-    pub fn advance(&mut self, stage: &Stage, matrix: &Dense<f32>) -> Option<Message> {
+    pub fn advance(
+        &mut self,
+        stage: &Stage,
+        (discrete, space): (&Discrete, &Space<'_>),
+        matrix: &Dense<f32>,
+    ) -> Option<Message> {
         let job = self.job.as_mut()?;
         let solution = &mut self.solutions[job.lamp];
-        let source = stage.lamps[job.lamp].source(&stage.patches, &job.reflectance);
+        let on = (&stage.scene, discrete.surface.as_slice());
+        let source = discrete.lamps[job.lamp].source(on, &job.reflectance);
         let kept = Kept::Stored(matrix);
         let target = stage.how.tolerance * max_norm(&source);
         let (state, norm) = improve(solution, (&source, &job.reflectance, &kept), (target, job.last));
-        let answer = lamp(job.lamp as u32, job.version, state, solution);
+        let answer = lamp(job.lamp as u32, job.version, state, &space.means(solution));
         job.last = norm;
         if state != State::Running {
             (job.lamp, job.last) = (job.lamp + 1, f64::INFINITY);
-            if job.lamp == stage.lamps.len() {
+            if job.lamp == self.solutions.len() {
                 self.job = None;
             }
         }
@@ -98,19 +116,21 @@ fn improve(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::view::discrete::{Matrix, space};
     use crate::view::stage::tests::cornell;
-    use crate::view::stage::{Matrix, Stage};
     use radiosity::solve::{Options, Unobserved, solve};
 
     fn solve_all(relight: &mut Relight, stage: &Stage, matrix: &Matrix) -> usize {
-        (0..200).take_while(|_| relight.advance(stage, &matrix.entries).is_some()).count()
+        let space = space(stage, stage.how.kind);
+        let on = (stage.first(), &space);
+        (0..200).take_while(|_| relight.advance(stage, on, &matrix.entries).is_some()).count()
     }
 
     #[test]
     fn lamps_together_are_the_scene_and_new_walls_take_fewer_steps() {
         let stage = cornell(300);
-        let matrix = stage.matrix().unwrap().as_ref().unwrap();
-        let mut relight = Relight::new(&stage);
+        let matrix = stage.first().matrix().unwrap().as_ref().unwrap();
+        let mut relight = Relight::new(stage.first());
         relight.ask(stage.patches.reflectance.clone(), 1);
         let first = solve_all(&mut relight, &stage, matrix);
         let check = |relight: &Relight, reflectance: &[Rgb]| {

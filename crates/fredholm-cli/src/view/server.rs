@@ -43,9 +43,11 @@ pub struct Hall {
 /// Windows at once: each has a solver that may work. Who opens more has lost sight of them.
 pub const SEATS: usize = 16;
 
-/// The longest message of a page, in bytes, is one with a reflectance for each surface: three numbers of 20 digits or so.
+/// The longest message of a page, in bytes, is one with a reflectance for each surface, three numbers of 20 digits or so, and
+/// the light of each patch, 12 bytes in base64.
 const LONGEST: usize = 1 << 16;
 const LONGEST_OF_SURFACE: usize = 80;
+const LONGEST_OF_PATCH: usize = 16;
 
 /// Commands that a page may be ahead of its solver.
 const AHEAD: usize = 256;
@@ -113,7 +115,8 @@ async fn session(State(hall): State<Arc<Hall>>, upgrade: WebSocketUpgrade) -> Re
         return (StatusCode::SERVICE_UNAVAILABLE, format!("{SEATS} windows are open; close one"))
             .into_response();
     };
-    let longest = LONGEST + LONGEST_OF_SURFACE * hall.stage.scene.surfaces.len();
+    let Stage { scene, patches, .. } = &hall.stage;
+    let longest = LONGEST + LONGEST_OF_SURFACE * scene.surfaces.len() + LONGEST_OF_PATCH * patches.len();
     upgrade.max_message_size(longest).max_frame_size(longest).on_upgrade(async move |socket| {
         converse(socket, hall).await;
         drop(seat);

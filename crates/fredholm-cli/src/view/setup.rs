@@ -1,5 +1,6 @@
 //! f = Σ_k g_k f_k and ρ, as a page asks for them: what is solved, and by which solvers.
 
+use super::discrete::{Discrete, Kind};
 use super::solvers::Solver;
 use super::stage::Stage;
 use anyhow::{Result, bail};
@@ -10,17 +11,19 @@ use radiosity::scene::{Scene, Surface};
 /// What is to be solved, checked.
 #[derive(Clone, Debug)]
 pub struct Setup {
+    /// The method, and the polynomials on patches.
+    pub kind: Kind,
     /// One solver, or two that race.
     pub solvers: Vec<Solver>,
     /// A factor for each lamp.
     pub gains: Vec<f64>,
     /// ρ of each surface.
     of_surfaces: Vec<[f64; 3]>,
-    /// ρ of each patch.
+    /// ρ of each unknown.
     pub reflectance: Vec<Rgb>,
-    /// f of each patch.
+    /// f of each unknown.
     pub source: Vec<Rgb>,
-    /// H from point lights of each patch.
+    /// H from point lights of each unknown.
     pub lit: Vec<Rgb>,
     /// The residual at which to stop.
     pub target: f64,
@@ -36,12 +39,14 @@ impl Setup {
     /// As the file says.
     pub fn of(stage: &Stage, solver: Solver) -> Self {
         let reflectance = stage.scene.surfaces.iter().map(|surface| surface.reflectance.0).collect();
-        Self::made(stage, vec![solver], vec![1.0; stage.lamps.len()], reflectance)
+        let first = stage.first();
+        Self::made(stage, first, vec![solver], vec![1.0; first.lamps.len()], reflectance)
     }
 
     /// As a page says, if that makes sense.
     pub fn new(
         stage: &Stage,
+        kind: Kind,
         solvers: Vec<Solver>,
         gains: Vec<f64>,
         reflectance: Vec<[f64; 3]>,
@@ -49,27 +54,36 @@ impl Setup {
         if solvers.is_empty() || solvers.len() > 2 {
             bail!("{} solvers are asked for; one runs, or two race", solvers.len());
         }
-        if gains.len() != stage.lamps.len() {
-            bail!("{} factors for {} lamps: give one for each", gains.len(), stage.lamps.len());
+        let discrete = stage.discrete(kind);
+        let lamps = discrete.lamps.len();
+        if gains.len() != lamps {
+            bail!("{} factors for {lamps} lamps: give one for each", gains.len());
         }
         if let Some(bad) = gains.iter().find(|gain| !(0.0..=BRIGHTEST).contains(*gain)) {
             bail!("a lamp {bad} times as bright: give a factor from 0 to {BRIGHTEST}");
         }
         check(stage, &reflectance)?;
-        Ok(Self::made(stage, solvers, gains, reflectance))
+        Ok(Self::made(stage, discrete, solvers, gains, reflectance))
     }
 
-    fn made(stage: &Stage, solvers: Vec<Solver>, gains: Vec<f64>, of_surfaces: Vec<[f64; 3]>) -> Self {
-        let reflectance = stage.spread(&of_surfaces);
+    fn made(
+        stage: &Stage,
+        discrete: &Discrete,
+        solvers: Vec<Solver>,
+        gains: Vec<f64>,
+        of_surfaces: Vec<[f64; 3]>,
+    ) -> Self {
+        let colours: Vec<Rgb> = of_surfaces.iter().map(|rho| Spectrum(*rho)).collect();
+        let reflectance = discrete.spread(&colours);
         let (zeros, ones) =
             (vec![Rgb::splat(0.0); reflectance.len()], vec![Rgb::splat(1.0); reflectance.len()]);
         let (mut source, mut lit) = (zeros.clone(), zeros);
-        for (lamp, gain) in stage.lamps.iter().zip(&gains) {
-            lamp.add_to(&mut source, *gain, &stage.patches, &reflectance);
+        for (lamp, gain) in discrete.lamps.iter().zip(&gains) {
+            lamp.add_to(&mut source, *gain, (&stage.scene, &discrete.surface), &reflectance);
             lamp.add_points_to(&mut lit, *gain, &ones);
         }
         let target = stage.how.tolerance * max_norm(&source);
-        Self { solvers, gains, of_surfaces, reflectance, source, lit, target }
+        Self { kind: discrete.kind, solvers, gains, of_surfaces, reflectance, source, lit, target }
     }
 
     /// The scene and its patches with these lamps and reflectances.
@@ -78,7 +92,7 @@ impl Setup {
         for (surface, rho) in scene.surfaces.iter_mut().zip(&self.of_surfaces) {
             surface.reflectance = Spectrum(*rho);
         }
-        for (lamp, gain) in stage.lamps.iter().zip(&self.gains) {
+        for (lamp, gain) in stage.discrete(self.kind).lamps.iter().zip(&self.gains) {
             for &s in &lamp.surfaces {
                 scene.surfaces[s].emission = stage.scene.surfaces[s].emission * *gain;
             }
@@ -87,7 +101,9 @@ impl Setup {
             }
         }
         let mut patches = stage.patches.clone();
-        patches.reflectance.clone_from(&self.reflectance);
+        for (rho, &s) in patches.reflectance.iter_mut().zip(&patches.surface) {
+            *rho = scene.surfaces[s as usize].reflectance;
+        }
         patches.lights.clone_from(&scene.lights);
         for (e, &s) in patches.emission.iter_mut().zip(&patches.surface) {
             *e = scene.surfaces[s as usize].emission;

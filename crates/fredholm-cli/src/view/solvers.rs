@@ -7,6 +7,7 @@ use fredholm::krylov::Gmres;
 use fredholm::relax::{GaussSeidel, Jacobi, Relaxation, Southwell, SuccessiveApproximation};
 use fredholm::system::{System, error_bound};
 use fredholm::value::{Rgb, Value, max_norm};
+use radiosity::elements::Space;
 use radiosity::render::luminance;
 use serde::{Deserialize, Serialize};
 
@@ -57,7 +58,7 @@ const PATIENCE: usize = 12;
 /// A solver and how far it is.
 pub struct Lane<'a> {
     system: System<'a, Rgb, Kept<'a>>,
-    weights: &'a [f64],
+    space: &'a Space<'a>,
     relaxation: Box<dyn Relaxation<Rgb> + 'a>,
     shoots: bool,
     iteration: usize,
@@ -72,10 +73,11 @@ pub struct Lane<'a> {
 }
 
 impl<'a> Lane<'a> {
-    /// A solver that has done nothing yet; `weights` are the areas, `target` the residual at which it ends.
-    pub fn new(solver: Solver, system: System<'a, Rgb, Kept<'a>>, weights: &'a [f64], target: f64) -> Self {
+    /// A solver that has done nothing yet; `space` is whose coefficients the unknowns are, `target` the residual at which it
+    /// ends.
+    pub fn new(solver: Solver, system: System<'a, Rgb, Kept<'a>>, space: &'a Space<'a>, target: f64) -> Self {
         let relaxation: Box<dyn Relaxation<Rgb> + 'a> = match solver {
-            Solver::Southwell => Box::new(Southwell::new(system, weights)),
+            Solver::Southwell => Box::new(Southwell::new(system, space.weights())),
             Solver::GaussSeidel => Box::new(GaussSeidel::new(system)),
             Solver::Jacobi => Box::new(Jacobi::new(system)),
             Solver::Successive => Box::new(SuccessiveApproximation::new(system)),
@@ -83,7 +85,7 @@ impl<'a> Lane<'a> {
         };
         Self {
             system,
-            weights,
+            space,
             relaxation,
             shoots: solver.shoots(),
             iteration: 0,
@@ -130,16 +132,17 @@ impl<'a> Lane<'a> {
         }
     }
 
-    /// The patch with the most unshot light, which Southwell's method takes next.
+    /// The unknown with the most unshot light, which Southwell's method takes next.
     fn brightest(&self) -> usize {
         let residual = self.relaxation.residual();
-        let light = |i: usize| residual[i].magnitude() * self.weights[i];
+        let weights = self.space.weights();
+        let light = |i: usize| residual[i].magnitude() * weights[i];
         (1..residual.len()).fold(0, |best, i| if light(i) > light(best) { i } else { best })
     }
 
-    /// What the method shows now.
+    /// What the method shows now: the mean over each patch.
     pub fn shown(&self) -> Vec<Rgb> {
-        self.relaxation.preview()
+        self.space.means(&self.relaxation.preview())
     }
 
     /// ‖r‖∞ of now.
@@ -171,14 +174,16 @@ impl<'a> Lane<'a> {
             lane: lane as u32,
             run,
             iteration: self.iteration as u32,
-            shot: self.shot,
+            shot: self.shot.map(|unknown| self.space.element_of(unknown)),
             state: self.state,
             work: self.work(),
             residual: largest,
             bound: error_bound(largest, norm),
-            unshot: unshot(&residual, self.weights),
+            unshot: unshot(&residual, self.space.weights()),
         };
-        frame(&head, &self.relaxation.preview(), &residual)
+        // Of a patch with several unknowns that which is furthest off.
+        let worst = |i: usize| residual[self.space.range(i)].iter().map(Value::magnitude).fold(0.0, f64::max);
+        frame(&head, &self.shown(), (0..self.space.polygons().len()).map(worst))
     }
 }
 

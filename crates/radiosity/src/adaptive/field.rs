@@ -92,6 +92,16 @@ impl<V: Value> Field<'_, V> {
         [self.space.patches.len(), self.looks.iter().flatten().map(Vec::len).sum()]
     }
 
+    /// The patches, each with the number of its face.
+    pub fn patches(&self) -> impl Iterator<Item = (u32, &Polygon)> {
+        self.space.patches.iter().map(|&patch| (self.tree.node(patch).face, &self.tree.node(patch).polygon))
+    }
+
+    /// Whether a point of a face is under something that stands on it, where no light comes.
+    pub fn is_covered(&self, face: u32, point: DVec3) -> bool {
+        self.domain.is_buried(face, point)
+    }
+
     /// The mesh, face by face.
     pub fn parts(&self) -> Vec<Part<V>> {
         let mut patches = self.space.patches.clone();
@@ -107,7 +117,7 @@ impl<V: Value> Field<'_, V> {
     }
 
     /// The root of the mean square of the reflected radiosity, in W/m².
-    pub(super) fn scale(&self) -> f64 {
+    pub fn scale(&self) -> f64 {
         let (mut sum, mut area) = (0.0, 0.0);
         for leaf in self.tree.leaves() {
             let node = self.tree.node(leaf);

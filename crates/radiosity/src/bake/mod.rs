@@ -1,11 +1,16 @@
-//! A solved field as a picture that is laid around the surfaces: B and H in every texel of an [`Atlas`].
+//! A solved field for other programs: B and H in every texel of an [`Atlas`] that is laid around the surfaces, or B at the
+//! vertices of triangles ([`VertexLight`]).
 //!
 //! Light comes straight from lamps to each texel by formula, so that shadows are as sharp as texels are; the rest is the
 //! field's. Texels beside a polygon have what is at the nearest point of it: bilinear filters never mix in what is not lit.
 
 mod atlas;
+mod cells;
+mod patches;
+mod vertices;
 
 pub use atlas::{Atlas, Crowded};
+pub use vertices::{VertexLight, Vertices};
 
 use crate::adaptive::Field;
 use crate::polygon::Polygon;

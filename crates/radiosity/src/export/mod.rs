@@ -1,5 +1,6 @@
 //! The solved field as a file: a row per patch, with all that the equation knows of it. View factors are written by
-//! [`factors`]; baked light as binary glTF ([`write_glb`]) and OpenEXR ([`write_exr`]).
+//! [`factors`]; baked light as binary glTF ([`write_glb`], [`write_vertex_glb`]) and OpenEXR ([`write_exr`]),
+//! pictures as OpenEXR ([`write_exr_picture`]).
 //!
 //! | column | unit | |
 //! |---|---|---|
@@ -17,15 +18,15 @@
 //! `heat_flux_W_m2`.
 
 mod csv;
+mod exr;
 pub mod factors;
 mod glb;
-mod lightmap;
 mod npz;
 mod vtu;
 
 pub use csv::write_csv;
-pub use glb::write_glb;
-pub use lightmap::write_exr;
+pub use exr::{write_exr, write_exr_picture};
+pub use glb::{write_glb, write_vertex_glb};
 pub use npz::write_npz;
 pub use vtu::write_vtu;
 

@@ -175,7 +175,8 @@ pub enum Problem {
     /// A reflectance with which light would not die out.
     #[error(
         "the reflectance of {owner} is {value} in channel {channel}; it must be at least 0 and less than 1, \
-         since a surface returns less light than it gets: bright paint is about 0.85"
+         since a surface returns less light than it gets; give it that of bright paint, 0.85, there or under [materials] \
+         in a scene file (.toml)"
     )]
     Reflectance {
         /// The material or the surface.
