@@ -7,11 +7,12 @@ use fredholm::discretize::{Coupling, Galerkin, ProductNystrom};
 use fredholm::equation::{ByOffset, Class, Equation, EquationError, Interval};
 use fredholm::krylov::Gmres;
 use fredholm::operator::hierarchical::{Hierarchical, HierarchicalError, Options, Plan};
-use fredholm::operator::{Dense, Operator, Rows};
+use fredholm::operator::{Columns, Dense, Matrix, Operator, Rows, TransposedOperator};
 use fredholm::product::Product;
 use fredholm::relax::*;
 use fredholm::space::Space;
 use fredholm::system::System;
+use fredholm::value::{Rgb, Spectrum};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -373,4 +374,39 @@ fn a_picture_covers_the_matrix_once() {
     // However many unknowns, it can be looked at.
     let fine = kept(&of(line(30_000), radial(f64::ln)), 1e-3).picture();
     assert!(fine.len() < 1_000_000 && fine.contains("#786e6e"), "{}", fine.len());
+}
+
+#[test]
+fn blocks_over_many_strips_act_and_are_read_as_small_ones_are() {
+    // Places in no order, and blocks of 1050 × 1050.
+    let n = 4200;
+    let points: Vec<[f64; 1]> = (0..n).map(|k| [(k * 1009 % n) as f64 / n as f64]).collect();
+    let coupling = of(points, |x: &[f64; 1], y: &[f64; 1]| (1.0 + x[0]) * (1e-3 + (x[0] - y[0]).abs()).ln());
+    let operator = kept(&coupling, 1e-10);
+    let u: Vec<Rgb> = (0..n).map(|j| Spectrum([1.0, (j as f64).sin(), (j % 3) as f64 - 1.0])).collect();
+    let numbers: Vec<f64> = u.iter().map(|u| u.0[1]).collect();
+    let (mut forward, mut transposed) = (vec![Spectrum([0.0; 3]); n], vec![Spectrum([0.0; 3]); n]);
+    let (mut forward_1, mut transposed_1) = (vec![0.0; n], vec![0.0; n]);
+    operator.apply(&u, &mut forward);
+    operator.apply(&numbers, &mut forward_1);
+    operator.apply_transposed(&u, &mut transposed);
+    operator.apply_transposed(&numbers, &mut transposed_1);
+    let (mut first, mut second) = (Vec::new(), Vec::new());
+    for i in (0..n).step_by(97) {
+        let (row, column) = (operator.row(i, &mut first), operator.column(i, &mut second));
+        let size: f64 = (0..n).map(|j| coupling.entry(i, j).abs() + coupling.entry(j, i).abs()).sum();
+        let close = |a: f64, b: f64, of: f64| assert!((a - b).abs() <= 1e-8 * of, "{i}: {a} is not {b}");
+        close(operator.diagonal(i), coupling.entry(i, i), size / n as f64);
+        for j in 0..n {
+            close(row.get(j), coupling.entry(i, j), size / n as f64);
+            close(column.get(j), coupling.entry(j, i), size / n as f64);
+        }
+        for channel in 0..3 {
+            let sum = |entry: &dyn Fn(usize) -> f64| (0..n).map(|j| entry(j) * u[j].0[channel]).sum::<f64>();
+            close(forward[i].0[channel], sum(&|j| coupling.entry(i, j)), size);
+            close(transposed[i].0[channel], sum(&|j| coupling.entry(j, i)), size);
+        }
+        close(forward_1[i], forward[i].0[1], size);
+        close(transposed_1[i], transposed[i].0[1], size);
+    }
 }

@@ -10,8 +10,8 @@ pub(super) struct Strips {
     starts: Vec<usize>,
 }
 
-/// Places of a strip, at most: 4 kB of numbers. Half as many make pieces too short to stream, four times as many no longer
-/// fit beside what streams past.
+/// Places of a strip, at most: 4 kB of numbers, an eighth of a small first-level cache, and of colours three eighths. With fewer, a
+/// block is in more strips, and its pieces are shorter.
 const MOST: usize = 512;
 
 impl Strips {
