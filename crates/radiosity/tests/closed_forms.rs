@@ -32,8 +32,8 @@ fn options(method: Method, accuracy: f64) -> Options {
         accuracy,
         tolerance: 1e-11,
         iterations: 1000,
-        ambient: false,
         memory: 1 << 31,
+        ..Options::default()
     }
 }
 
