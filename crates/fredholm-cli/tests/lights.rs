@@ -1,4 +1,4 @@
-//! Luminaires in a scene file, by patches and to an accuracy.
+//! Luminaires, a sun and a sky in a scene file, by every way through the command: by patches, to an accuracy, baked.
 
 #![allow(clippy::unwrap_used, reason = "in a test a panic is the message, in its helpers too")]
 
@@ -24,6 +24,50 @@ fn write(folder: &Path, rest: &str) {
 
 fn illuminance(report: &Value) -> f64 {
     report["surfaces"][0]["mean_illuminance"].as_f64().unwrap()
+}
+
+/// 7/9 π L_z of the overcast sky, and the cosine of the sun's.
+const DAY: &str = "[sun]\nazimuth = 180\nelevation = 30\nnormal_illuminance = 20000\n\
+    [sky]\nkind = \"cie-overcast\"\nzenith_luminance = 900\n";
+
+#[test]
+fn the_sun_and_the_sky_are_told_with_their_units() {
+    let folder = folder("day");
+    write(&folder, DAY);
+    let sky = 7.0 / 9.0 * PI * 900.0;
+    for words in ["radiosity a.toml --patch-size 0.5", "radiosity a.toml --accuracy 1%"] {
+        let report = json(&fredholm(&folder, &format!("{words} --json -")).stdout);
+        assert!((illuminance(&report) / (10_000.0 + sky) - 1.0).abs() < 1e-9, "{words}: {report}");
+        assert_eq!(report["sky"]["kind"], "CIE overcast (1 + 2 sin of the elevation)/3");
+        assert_eq!(report["sky"]["zenith_unit"], "cd/m²");
+        let horizontal = report["sky"]["horizontal_irradiance"][0].as_f64().unwrap();
+        assert!((horizontal / sky - 1.0).abs() < 1e-12 && report["units"]["irradiance"] == "lx");
+        assert_eq!(report["suns"][0]["normal_irradiance"][0], 20_000.0);
+        let table = text(&fredholm(&folder, words).stdout);
+        for part in [
+            "sun  ",
+            "20000 lx across its beam, with sharp shadows",
+            "CIE overcast (1 + 2 sin of the elevation)/3: 2199 lx on a free horizontal, 900 cd/m² at the zenith; exact",
+        ] {
+            assert!(table.contains(part), "no `{part}` in {table}");
+        }
+        if words.contains("patch") {
+            assert!(table.contains("open: 100.0 % of the sight lines end in the sky or under it"), "{table}");
+        }
+    }
+    // A clear sky says how exact it is.
+    write(&folder, &DAY.replace("\"cie-overcast\"", "\"cie\"\ntype = 12"));
+    let table = text(&fredholm(&folder, "radiosity a.toml --patch-size 1").stdout);
+    assert!(table.contains("CIE general sky 12: ") && table.contains("% in any direction"), "{table}");
+}
+
+#[test]
+fn a_baked_scene_tells_its_lights() {
+    let folder = folder("baked_day");
+    write(&folder, DAY);
+    let report = json(&fredholm(&folder, "bake a.toml --size 64 --json -").stdout);
+    assert!(report["sky"]["cells"] == 4 && report["suns"].as_array().unwrap().len() == 1, "{report}");
+    assert_eq!(report["dark"], false);
 }
 
 #[test]

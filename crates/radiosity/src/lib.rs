@@ -31,7 +31,7 @@
 //! | 3 | [`visibility`] | V(x, y): may two points see each other? |
 //! | 4 | [`kernel`] | K(x, y) = cosθ cosθ′ V / (π r²) |
 //! | 5 | [`form_factor`] | F_ij: Nyström, collocation, Galerkin |
-//! | | [`lights`] | what points and suns send to surfaces: f = E + ρ H |
+//! | | [`lights`], [`sky`] | what points, suns and a sky around the scene send to surfaces: f = E + ρ H |
 //! | | [`elements`] | the same on P_k and Q_k: coefficients for each patch |
 //! | 6 | [`solve`](mod@solve) | u = f + ρ ⊙ (F u), by the crate `fredholm`; [`closure`] checks it |
 //! | 2–7 | [`adaptive`] | all of it to an accuracy that is asked for |
@@ -57,6 +57,7 @@ pub mod polygon;
 pub mod reconstruct;
 pub mod render;
 pub mod scene;
+pub mod sky;
 pub mod solve;
 pub mod thermal;
 pub mod view_factors;

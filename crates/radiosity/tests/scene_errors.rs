@@ -248,6 +248,15 @@ fn the_unit_changes_nothing() {
 }
 
 #[test]
+fn a_sky_is_for_scenes_in_which_all_can_be_asked_what_they_hide() {
+    let many = "f 1 2 3 4\n".repeat(20_001);
+    let mut files = obj(&many);
+    let toml = "unit = 'm'\nmeshes = ['a.obj']\n[sky]\nkind = 'uniform'\nzenith_radiance = 1\n";
+    files.insert(0, ("a.toml", toml.to_owned()));
+    check("many", &[Case { files, place: "a.toml", words: &["20001 polygons", "20000 are the most"] }]);
+}
+
+#[test]
 fn lights() {
     let light = |rest: &str, place, words| {
         let mut files = obj("f 1 2 3 4");
@@ -316,6 +325,35 @@ fn lights() {
             sun("north = [0, 0, 1]", "a.toml:3", &["along one line"]),
         ],
     );
+    let sky = |rest: &str, place, words| sun(&format!("[sky]\n{rest}"), place, words);
+    check(
+        "sky",
+        &[
+            sky("", "a.toml:3", &["missing field `kind`"]),
+            sky("kind = 'blue'", "a.toml:4", &["no sky of the kind \"blue\"", "\"cie-overcast\""]),
+            sky("kind = 'cie'", "a.toml:4", &["needs a `type` from 1 to 15"]),
+            sky("kind = 'cie'\ntype = 16", "a.toml:5", &["no CIE sky of type 16"]),
+            sky("kind = 'cie'\ntype = -1", "a.toml:5", &["no CIE sky of type -1"]),
+            sky("kind = 'uniform'\ntype = 5", "a.toml:5", &["has no types"]),
+            sky("kind = 'cie'\ntype = 12", "a.toml:4", &["depends on where the sun is", "[sun]"]),
+            sky("kind = 'cie'\ntype = 12\nazimuth = 3\nelevation = -3", "a.toml:4", &["below the horizon"]),
+            sky("kind = 'cie'\ntype = 12\nazimuth = 3", "a.toml:3", &["an `azimuth` and an `elevation`"]),
+            sky("kind = 'uniform'", "a.toml:3", &["`zenith_radiance` or a `horizontal_irradiance`"]),
+            sky(
+                "kind = 'uniform'\nzenith_radiance = 1\nhorizontal_irradiance = 1",
+                "a.toml:3",
+                &["give one of them"],
+            ),
+            sky("kind = 'uniform'\nzenith_luminance = 1", "a.toml:5", &["in watts", "`zenith_radiance`"]),
+            sky("kind = 'uniform'\nzenith_radiance = -1", "a.toml:5", &["zenith_radiance is -1"]),
+            sky("kind = 'uniform'\nhorizontal_irradiance = inf", "a.toml:5", &["is inf", "finite"]),
+            sky("kind = 'uniform'\nground = 1", "a.toml:5", &["unknown field `ground`"]),
+        ],
+    );
+    let mut photometric =
+        sky("kind = 'uniform'\nzenith_radiance = 1", "a.toml:6", &["is photometric", "`zenith_luminance`"]);
+    photometric.files[0].1.insert_str(0, "units = 'photometric'\n");
+    check("photometric sky", &[photometric]);
     let mut photometric = sun(
         "[sun]\nazimuth = 9\nelevation = 9\nnormal_irradiance = 9",
         "a.toml:7",

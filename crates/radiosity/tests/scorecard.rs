@@ -19,6 +19,8 @@ mod enclosures;
 mod formulas;
 #[path = "scorecard/shapes.rs"]
 mod shapes;
+#[path = "scorecard/sky.rs"]
+mod sky;
 
 mod common;
 
@@ -110,10 +112,11 @@ fn page(cases: &[Case]) -> String {
 
 #[test]
 fn the_scorecard_says_what_is_computed() {
-    let cases: Vec<Case> = [cie::cases(), shapes::cases(), enclosures::cases(), vec![cornell::case()]]
-        .into_iter()
-        .flatten()
-        .collect();
+    let cases: Vec<Case> =
+        [cie::cases(), sky::cases(), shapes::cases(), enclosures::cases(), vec![cornell::case()]]
+            .into_iter()
+            .flatten()
+            .collect();
     cases.iter().for_each(Case::check);
     let (page, file) =
         (page(&cases), PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../docs/scorecard.md"));

@@ -21,6 +21,17 @@ must be there:
   position = [4000, 2500, 2400]
   intensity = 20                       # W/sr, or three; or flux, in W
   direction = [0, 0, -1]               # if it is diffuse, I cosθ; else alike in all directions
+  cone = [20, 35]                      # a spot: degrees from its axis, whole up to the first
+  [[luminaire]]                        # IES LM-63 or EULUMDAT; also aim, turn, dimming or flux
+  file = \"downlight.ies\"
+  position = [2200, 1900, 2750]
+  [sun]                                # or direction, the way that its light goes
+  azimuth = 205                        # degrees clockwise from north, y
+  elevation = 42
+  normal_irradiance = 800              # W/m² across the beam, or three
+  [sky]                                # uniform, cie-overcast, or cie with a type from 1 to 15
+  kind = \"cie-overcast\"
+  horizontal_irradiance = 100          # W/m² of the sky alone; or zenith_radiance, in W/(m² sr)
   [camera]                             # found by itself if left out
   position = [8500, 500, 1700]
   target = [2200, 4600, 1600]
@@ -42,7 +53,8 @@ view factors are known. Here a shield floats between two plates:
   ]
 
 With units = \"photometric\" materials have a luminance in cd/m², a luminous_exitance in lm/m² or a
-luminous_flux in lm, lights an intensity in cd or a flux in lm, and all is grey.
+luminous_flux in lm, lights an intensity in cd or a flux in lm, the sun a normal_illuminance in lx,
+the sky a horizontal_illuminance in lx or a zenith_luminance in cd/m², and all is grey.
 
 \
 Examples:

@@ -1,9 +1,10 @@
 //! What shines in a scene beside its surfaces, as reports tell it.
 
-use crate::text::short;
+use crate::text::{percent, short};
 use fredholm::value::Value;
 use radiosity::lights::{FAR, nearest_lit};
 use radiosity::scene::{Aimed, Distribution, Light, PointLight, Scene, Units};
+use radiosity::sky::Kind;
 use serde::Serialize;
 
 /// The lights of a scene that are no surfaces.
@@ -15,6 +16,8 @@ pub struct Lights {
     luminaires: Vec<Luminaire>,
     /// Those infinitely far away.
     suns: Vec<Sun>,
+    /// What is around the scene.
+    sky: Option<Sky>,
     /// The unit of their flux.
     flux_unit: &'static str,
     #[serde(skip)]
@@ -85,6 +88,54 @@ struct Sun {
     direction: [f64; 3],
 }
 
+/// A sky.
+#[derive(Clone, Debug, Serialize)]
+struct Sky {
+    /// Its kind, with its number.
+    kind: String,
+    /// By channel, in the unit of radiance.
+    zenith_radiance: Vec<f64>,
+    /// Of a horizontal from which all of it is seen, by channel, in the unit of irradiance.
+    horizontal_irradiance: Vec<f64>,
+    zenith_unit: &'static str,
+    /// In how many parts it is integrated.
+    cells: usize,
+    /// By how much it may differ from its formula in any direction, and so any irradiance from it: relative.
+    largest_relative_error: f64,
+}
+
+impl Sky {
+    fn of<V: Value>(light: &Light<V>, units: Units) -> Option<Self> {
+        let Light::Sky(sky) = light else { return None };
+        let kind = match sky.dome.model().kind() {
+            Kind::Uniform => "uniform".to_owned(),
+            Kind::Overcast => "CIE overcast (1 + 2 sin of the elevation)/3".to_owned(),
+            Kind::General(number) => format!("CIE general sky {number}"),
+        };
+        Some(Self {
+            kind,
+            zenith_radiance: sky.zenith.channels().to_vec(),
+            horizontal_irradiance: (sky.zenith * sky.dome.horizontal()).channels().to_vec(),
+            zenith_unit: units.radiance(),
+            cells: sky.dome.cells(),
+            largest_relative_error: sky.dome.error(),
+        })
+    }
+
+    fn line(&self, unit: &str) -> String {
+        let error = match self.largest_relative_error {
+            rounding if rounding < 1e-9 => "exact".to_owned(),
+            error => format!("to {} in any direction", percent(error)),
+        };
+        format!(
+            "{}: {} on a free horizontal, {} at the zenith; {error}",
+            self.kind,
+            amount(&self.horizontal_irradiance, unit),
+            amount(&self.zenith_radiance, self.zenith_unit)
+        )
+    }
+}
+
 impl Lights {
     /// Those of a scene.
     pub fn new<V: Value>(scene: &Scene<V>, units: Units) -> Self {
@@ -93,12 +144,12 @@ impl Lights {
                 normal_irradiance: sun.irradiance.channels().to_vec(),
                 direction: sun.direction.to_array(),
             }),
-            Light::Point(_) => None,
+            Light::Point(_) | Light::Sky(_) => None,
         };
         let points = || {
             scene.lights.iter().filter_map(|light| match light {
                 Light::Point(light) => Some(light),
-                Light::Sun(_) => None,
+                Light::Sun(_) | Light::Sky(_) => None,
             })
         };
         Self {
@@ -106,8 +157,14 @@ impl Lights {
             flux_unit: if units == Units::Photometric { "lm" } else { "W" },
             point_lights: points().count(),
             suns: scene.lights.iter().filter_map(sun).collect(),
+            sky: scene.lights.iter().find_map(|light| Sky::of(light, units)),
             unit: units.irradiance(),
         }
+    }
+
+    /// Whether what leaves the scene meets a sky.
+    pub fn has_sky(&self) -> bool {
+        self.sky.is_some()
     }
 
     /// A line of a table for each.
@@ -119,7 +176,8 @@ impl Lights {
             ("sun", text)
         };
         let luminaires = self.luminaires.iter().map(|light| ("luminaire", light.line(self.flux_unit)));
-        points.into_iter().chain(luminaires).chain(self.suns.iter().map(sun))
+        let sky = self.sky.iter().map(|sky| ("sky", sky.line(self.unit)));
+        points.into_iter().chain(luminaires).chain(self.suns.iter().map(sun)).chain(sky)
     }
 }
 

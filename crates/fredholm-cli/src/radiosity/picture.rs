@@ -5,7 +5,6 @@ use super::domain::Domain;
 use crate::args::name;
 use crate::terminal::bar;
 use anyhow::{Result, bail};
-use fredholm::value::Value;
 use image::RgbImage;
 use radiosity::patches::Patches;
 use radiosity::polygon::Polygon;
@@ -97,7 +96,7 @@ pub fn map<V: Colour>(picture: &Picture, patches: &Patches<V>, radiosity: &[V], 
 }
 
 /// A number of every patch as a colour.
-pub fn map_of_patches<V: Value>(
+pub fn map_of_patches<V: Colour>(
     args: &Radiosity,
     domain: &Domain<'_, V>,
     values: &[f64],

@@ -52,7 +52,7 @@ pub struct Report {
     pub closure_defect: Option<f64>,
     /// How many rows were checked.
     pub closure_rows: Option<usize>,
-    /// The share of the light that meets nothing; none in a closed scene.
+    /// The share of the light that meets nothing, or the sky; none in a closed scene.
     pub escaping: Option<f64>,
     /// The standard error that was asked for of a row sum.
     pub accuracy: f64,

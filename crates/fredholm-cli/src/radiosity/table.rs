@@ -131,7 +131,11 @@ fn error_bound(report: &Report) -> String {
 
 fn closure(report: &Report) -> String {
     match (report.escaping, report.closure_defect) {
-        (Some(share), _) => format!("open: {:.1} % of the sight lines leave the scene", 100.0 * share),
+        (Some(share), _) => {
+            let where_to =
+                if report.lights.has_sky() { "end in the sky or under it" } else { "leave the scene" };
+            format!("open: {:.1} % of the sight lines {where_to}", 100.0 * share)
+        }
         (None, Some(defect)) => {
             let rows = grouped(report.closure_rows.unwrap_or(0) as u64);
             let word = format!("form factors of {rows} patches add up to 1 within {defect:.1e}");

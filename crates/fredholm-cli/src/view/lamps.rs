@@ -37,7 +37,7 @@ pub fn lamps(scene: &Scene<Rgb>, patches: &Patches<Rgb>, visibility: &Visibility
         let irradiance = mean_irradiances(&alone, visibility);
         let name = match light {
             Light::Point(_) => format!("{} {}", light.kind(), k + 1),
-            Light::Sun(_) => light.kind().to_owned(),
+            Light::Sun(_) | Light::Sky(_) => light.kind().to_owned(),
         };
         lamps.push(Lamp { name, surfaces: Vec::new(), points: vec![k], irradiance });
     }

@@ -16,7 +16,7 @@ pub mod exchange;
 mod hider;
 mod kinks;
 pub mod lambert;
-mod outline;
+pub(crate) mod outline;
 pub(crate) mod outlook;
 pub mod pairs;
 mod partly;

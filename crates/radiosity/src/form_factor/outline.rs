@@ -12,7 +12,7 @@ const ROOM: usize = 16;
 
 /// A convex polygon that is cut by planes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Outline {
+pub(crate) struct Outline {
     x: [f64; ROOM],
     y: [f64; ROOM],
     z: [f64; ROOM],
@@ -20,7 +20,7 @@ pub(super) struct Outline {
 }
 
 /// What of an outline is inside of something.
-pub(super) enum Inside<'a> {
+pub(crate) enum Inside<'a> {
     Nothing,
     Part(&'a Outline),
     All,

@@ -196,7 +196,7 @@ fn hidden(piece: &Outline, planes: &[DVec3], normal: DVec3, room: &mut [Outline;
 }
 
 /// Leaves what is not above all planes.
-fn take_away(piece: Outline, planes: &[DVec3], left: &mut Vec<Outline>) {
+pub(crate) fn take_away(piece: Outline, planes: &[DVec3], left: &mut Vec<Outline>) {
     let mut inner = piece;
     for (k, plane) in planes.iter().enumerate() {
         let [inside, outside] = inner.divided(*plane);

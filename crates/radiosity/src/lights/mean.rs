@@ -2,7 +2,8 @@
 //!
 //! ∫ cosθ/r² dA over a polygon is the solid angle Ω under which the light sees it, and for a diffuse light ∫ cosθ′ cosθ/r² dA
 //! is π times Lambert's form factor: both are exact, and so is a sun's. Other intensities are taken at the middles of parts, in
-//! quarters and their quarters until these agree. A patch that lies partly in shadow is cut along its edge.
+//! quarters and their quarters until these agree, as is the light of a sky. A patch that lies partly in shadow is cut along its
+//! edge.
 
 use super::arrives;
 use crate::form_factor::lambert::point_to_polygon;
@@ -10,6 +11,7 @@ use crate::patches::Patches;
 use crate::polygon::Polygon;
 use crate::reconstruct::{Rotation, lattice};
 use crate::scene::{Distribution, Light, PointLight};
+use crate::sky::Dome;
 use crate::visibility::Visibility;
 use fredholm::value::Value;
 use glam::DVec3;
@@ -24,7 +26,11 @@ pub fn mean_irradiances<V: Value>(patches: &Patches<V>, visibility: &Visibility)
     }
     let mean = |patch: &Polygon| {
         patches.lights.iter().fold(V::splat(0.0), |sum, light| {
-            sum + light.amount() * (lit(light, visibility, patch, 0) / patch.area())
+            let mean = match light {
+                Light::Sky(sky) => of_sky(&sky.dome, visibility, patch),
+                Light::Point(_) | Light::Sun(_) => lit(light, visibility, patch, 0) / patch.area(),
+            };
+            sum + light.amount() * mean
         })
     };
     patches.polygons.par_iter().map(mean).collect()
@@ -61,7 +67,37 @@ fn whole<V>(light: &Light<V>, polygon: &Polygon) -> f64 {
     match light {
         Light::Sun(sun) => (-sun.direction).dot(polygon.normal()).max(0.0) * polygon.area(),
         Light::Point(light) => of_point(light, polygon),
+        // Its mean is another: see `of_sky`.
+        Light::Sky(_) => 0.0,
     }
+}
+
+/// The mean over a patch of what comes from a sky whose zenith has a radiance of 1, in sr.
+fn of_sky(dome: &Dome, visibility: &Visibility, patch: &Polygon) -> f64 {
+    let at = |point: DVec3| visibility.received_from(dome, point, patch.normal());
+    let tolerance = SOFT * dome.horizontal();
+    mean_of(&at, patch, at(patch.centroid()), tolerance, 0)
+}
+
+/// The part of the light of a free horizontal by which the middles of a patch and of its quarters may differ, a third of which is
+/// left; the light of a sky has soft edges, so that so many cuts in four are enough.
+const SOFT: f64 = 5e-4;
+const SOFT_CUTS: u32 = 3;
+
+/// The mean of a function over a polygon, at whose middle it is `coarse`.
+fn mean_of(at: &impl Fn(DVec3) -> f64, polygon: &Polygon, coarse: f64, tolerance: f64, cuts: u32) -> f64 {
+    let quarters = polygon.quarters();
+    let middles: Vec<f64> = quarters.iter().map(|part| at(part.centroid())).collect();
+    let mean = |values: &[f64]| {
+        let sum: f64 = quarters.iter().zip(values).map(|(part, value)| part.area() * value).sum();
+        sum / polygon.area()
+    };
+    let fine = mean(&middles);
+    if cuts == SOFT_CUTS || (fine - coarse).abs() <= tolerance {
+        return fine;
+    }
+    let parts = quarters.iter().zip(&middles);
+    mean(&parts.map(|(part, middle)| mean_of(at, part, *middle, tolerance, cuts + 1)).collect::<Vec<_>>())
 }
 
 fn of_point<V>(light: &PointLight<V>, polygon: &Polygon) -> f64 {

@@ -1,5 +1,5 @@
-//! H(x) = Σ I cosθ V / r² + Σ H_⊥ cosθ V: what point lights and suns send to surfaces, which makes the equation's source
-//! f = E + ρ H.
+//! H(x) = Σ I cosθ V / r² + Σ H_⊥ cosθ V + ∫ L cosθ V dω: what points, suns and a sky send to surfaces, which makes the
+//! equation's source f = E + ρ H.
 
 mod far;
 mod mean;
@@ -13,16 +13,27 @@ use crate::visibility::Visibility;
 use fredholm::value::Value;
 use glam::DVec3;
 
-/// The irradiance at a point from lights that nothing hides from it, in W/m² or lx: exact, with one ray to each light.
+/// The radiance that comes from beyond the scene in a direction, a unit vector: that of the sky, in W/(m² sr) or cd/m².
+pub fn beyond<V: Value>(lights: &[Light<V>], direction: DVec3) -> V {
+    lights.iter().fold(V::splat(0.0), |sum, light| match light {
+        Light::Sky(sky) => sum + sky.zenith * sky.dome.model().relative(direction),
+        Light::Point(_) | Light::Sun(_) => sum,
+    })
+}
+
+/// The irradiance at a point from lights that nothing hides from it, in W/m² or lx: exact, with one ray to each point or sun, and
+/// of a sky as near as [`Dome::error`](crate::sky::Dome::error) says.
 pub fn irradiance<V: Value>(lights: &[Light<V>], visibility: &Visibility, at: &SurfacePoint) -> V {
     lights.iter().fold(V::splat(0.0), |sum, light| sum + light.amount() * received(light, visibility, at))
 }
 
-/// The irradiance from a light of amount 1: cosθ/r² times the part of the intensity that goes there in sr/m², or cosθ.
+/// The irradiance from a light of amount 1: cosθ/r² times the part of the intensity that goes there in sr/m², or cosθ, or what is
+/// seen of the sky in sr.
 fn received<V>(light: &Light<V>, visibility: &Visibility, at: &SurfacePoint) -> f64 {
     let part = match light {
         Light::Point(light) => of_point(light, at),
         Light::Sun(sun) => (-sun.direction).dot(at.normal).max(0.0),
+        Light::Sky(sky) => return visibility.received_from(&sky.dome, at.position, at.normal),
     };
     if part > 0.0 && arrives(light, visibility, at.position) { part } else { 0.0 }
 }
@@ -47,6 +58,8 @@ fn arrives<V>(light: &Light<V>, visibility: &Visibility, point: DVec3) -> bool {
                 .is_none_or(|hit| hit.distance > distance * (1.0 - ON_SURFACE))
         }
         Light::Sun(Sun { direction, .. }) => visibility.nearest(point, -*direction).is_none(),
+        // How much of it arrives is asked of the sky itself.
+        Light::Sky(_) => true,
     }
 }
 

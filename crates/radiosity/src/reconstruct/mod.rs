@@ -2,7 +2,8 @@
 //! known in computer graphics as the final gather.
 //!
 //! The integral is split by what it sees. Light straight from lamps makes the sharp shadows: it is Lambert's exact
-//! form factor times the share of the lamp that is not hidden ([`Lamps`]), and of points and suns what [`crate::lights`] says. Light that patches reflect is smooth:
+//! form factor times the share of the lamp that is not hidden ([`Lamps`]), and of points,
+//! suns and skies what [`crate::lights`] says. Light that patches reflect is smooth:
 //! rays in a cosine distribution find it ([`Gather`]).
 //!
 //! Where a polygon stands for a piece of a curved surface both are found about the normal of that, for pictures alone.

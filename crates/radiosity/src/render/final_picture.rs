@@ -2,6 +2,7 @@
 //! by a final gather.
 
 use crate::kernel::SurfacePoint;
+use crate::lights;
 use crate::patches::Patches;
 use crate::polygon::Polygon;
 use crate::reconstruct::{Gather, Lamps, Rotation, Site, on_surface};
@@ -36,7 +37,8 @@ pub fn final_picture<V: Colour>(
     let lighting = Lighting::new(view, scene, patches, visibility, radiosity, &polygons);
     let lit = by_rows(&fragments, |pixel, fragment| lighting.of(fragment, pixel), progress);
     let indirect = smooth(&fragments, &Planes::new(scene), &lit);
-    fragments.resolve(|k| lit[k].direct + indirect[k])
+    let beyond = fragments.beyond(|direction| lights::beyond(&scene.lights, direction).to_rgb());
+    fragments.resolve(|k| lit[k].direct + indirect[k], &beyond)
 }
 
 /// `light` of every fragment, in order.

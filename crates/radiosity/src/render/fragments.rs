@@ -29,6 +29,8 @@ pub(crate) struct Fragments {
     pub(crate) all: Vec<Fragment>,
     /// Pixel k has the fragments first[k] .. first[k + 1].
     first: Vec<usize>,
+    /// The mean direction of the rays of each pixel that meet nothing, where there are some.
+    beyond: Vec<Option<DVec3>>,
 }
 
 impl Fragments {
@@ -40,27 +42,30 @@ impl Fragments {
         shown: impl Fn(u32, DVec3) -> u32 + Sync,
     ) -> Self {
         let pixel = |x: usize, y: usize| {
-            let mut fragments = Vec::new();
+            let (mut fragments, mut beyond) = (Vec::new(), DVec3::ZERO);
             // The same pattern in every pixel: edges come out even.
             for (s, t) in lattice(samples, Rotation::NONE) {
                 let direction = rays.direction(x as f64 + s, y as f64 + t);
                 if let Some(hit) = first_front(polygons, visibility, rays.origin(), direction) {
                     let point = rays.origin() + direction * hit.distance;
                     add_sample(&mut fragments, shown(hit.polygon, point), point);
+                } else {
+                    beyond += direction;
                 }
             }
             for fragment in &mut fragments {
                 fragment.point /= fragment.weight;
                 fragment.weight /= samples as f64;
             }
-            fragments
+            (fragments, beyond.try_normalize())
         };
         let rows: Vec<Vec<_>> =
             (0..height).into_par_iter().map(|y| (0..width).map(|x| pixel(x, y)).collect()).collect();
-        let mut result = Self { width, height, all: Vec::new(), first: vec![0] };
-        for fragments in rows.into_iter().flatten() {
+        let mut result = Self { width, height, all: Vec::new(), first: vec![0], beyond: Vec::new() };
+        for (fragments, beyond) in rows.into_iter().flatten() {
             result.all.extend(fragments);
             result.first.push(result.all.len());
+            result.beyond.push(beyond);
         }
         result
     }
@@ -68,7 +73,7 @@ impl Fragments {
     /// Pixels that show one thing each.
     #[cfg(test)]
     pub(crate) fn with_one_each(width: usize, height: usize, all: Vec<Fragment>) -> Self {
-        Self { width, height, first: (0..=all.len()).collect(), all }
+        Self { width, height, first: (0..=all.len()).collect(), all, beyond: vec![None; width * height] }
     }
 
     /// Which fragments a pixel has.
@@ -76,14 +81,21 @@ impl Fragments {
         self.first[pixel]..self.first[pixel + 1]
     }
 
-    /// The picture in which each fragment has the radiance `of` its number.
+    /// The radiance of what is beyond the scene in each pixel that shows some of it, from that of a direction.
+    pub(crate) fn beyond(&self, radiance: impl Fn(DVec3) -> Rgb + Sync) -> Vec<Rgb> {
+        let nothing = Spectrum([0.0; 3]);
+        self.beyond.par_iter().map(|direction| direction.map_or(nothing, &radiance)).collect()
+    }
+
+    /// The picture in which each fragment has the radiance `of` its number, and each pixel `beyond` the scene that of its own.
     ///
     /// Where an edge runs through a pixel, radiances far above the middle of the picture are weighed down, as a
     /// screen will show them: the plain mean with a lamp would be as white as the lamp, and the edge a staircase.
-    pub(crate) fn resolve(&self, of: impl Fn(usize) -> Rgb + Sync) -> Picture {
+    pub(crate) fn resolve(&self, of: impl Fn(usize) -> Rgb + Sync, beyond: &[Rgb]) -> Picture {
         let middle = self.middle_luminance(&of);
         let pixels = (0..self.width * self.height).into_par_iter().with_min_len(self.width);
-        let pixels = pixels.map(|pixel| self.blend(self.of_pixel(pixel), &of, middle)).collect();
+        let pixels =
+            pixels.map(|pixel| self.blend(self.of_pixel(pixel), &of, beyond[pixel], middle)).collect();
         Picture { width: self.width, height: self.height, pixels }
     }
 
@@ -93,16 +105,22 @@ impl Fragments {
         percentile(lit.collect(), 0.5).unwrap_or(1.0)
     }
 
-    fn blend(&self, pixel: std::ops::Range<usize>, of: &impl Fn(usize) -> Rgb, middle: f64) -> Rgb {
-        // What the rays miss is black, and weighs as much as it covers.
-        let mut weights = 1.0 - self.all[pixel.clone()].iter().map(|f| f.weight).sum::<f64>();
-        let mut sum = Spectrum([0.0; 3]);
-        for k in pixel {
-            let radiance = of(k);
-            let weight = self.all[k].weight / (1.0 + luminance(radiance).max(0.0) / middle);
+    fn blend(
+        &self,
+        pixel: std::ops::Range<usize>,
+        of: &impl Fn(usize) -> Rgb,
+        beyond: Rgb,
+        middle: f64,
+    ) -> Rgb {
+        let (mut weights, mut sum) = (0.0, Spectrum([0.0; 3]));
+        let mut add = |radiance: Rgb, covered: f64| {
+            let weight = covered / (1.0 + luminance(radiance).max(0.0) / middle);
             weights += weight;
             sum += radiance * weight;
-        }
+        };
+        // What the rays miss is black, or the sky.
+        add(beyond, 1.0 - self.all[pixel.clone()].iter().map(|f| f.weight).sum::<f64>());
+        pixel.for_each(|k| add(of(k), self.all[k].weight));
         sum * (1.0 / weights)
     }
 }
@@ -122,21 +140,31 @@ mod tests {
     use super::*;
     use fredholm::value::Value;
 
+    const BLACK: [Rgb; 1] = [Spectrum([0.0; 3])];
+
     fn one_pixel(weights: &[f64]) -> Fragments {
         let all = weights.iter().map(|&weight| Fragment { shown: 0, weight, point: DVec3::ZERO }).collect();
-        Fragments { width: 1, height: 1, all, first: vec![0, weights.len()] }
+        Fragments { width: 1, height: 1, all, first: vec![0, weights.len()], beyond: vec![Some(DVec3::Z)] }
     }
 
     #[test]
     fn equal_fragments_make_a_pixel_of_their_radiance() {
-        let picture = one_pixel(&[0.25, 0.5, 0.25]).resolve(|_| Rgb::splat(3.0));
+        let picture = one_pixel(&[0.25, 0.5, 0.25]).resolve(|_| Rgb::splat(3.0), &BLACK);
         assert!((picture.pixels[0] - Rgb::splat(3.0)).magnitude() < 1e-15);
     }
 
     #[test]
     fn a_pixel_that_half_misses_is_darker() {
-        let half = one_pixel(&[0.5]).resolve(|_| Rgb::splat(1.0)).pixels[0].0[0];
+        let half = one_pixel(&[0.5]).resolve(|_| Rgb::splat(1.0), &BLACK).pixels[0].0[0];
         assert!((0.3..0.5).contains(&half), "{half}");
-        assert_eq!(one_pixel(&[]).resolve(|_| Rgb::splat(1.0)).pixels[0], Rgb::splat(0.0));
+        assert_eq!(one_pixel(&[]).resolve(|_| Rgb::splat(1.0), &BLACK).pixels[0], Rgb::splat(0.0));
+    }
+
+    #[test]
+    fn what_is_missed_is_the_sky() {
+        let pixel = one_pixel(&[0.5]);
+        let sky = pixel.beyond(|direction| Rgb::splat(direction.z));
+        assert_eq!(sky, [Rgb::splat(1.0)]);
+        assert!((pixel.resolve(|_| Rgb::splat(1.0), &sky).pixels[0] - Rgb::splat(1.0)).magnitude() < 1e-15);
     }
 }

@@ -1,13 +1,14 @@
 //! The picture of a light that is known at every point: one look at each thing that a pixel shows, curved surfaces as such.
 
 use crate::adaptive::Field;
+use crate::lights;
 use crate::polygon::Polygon;
 use crate::render::colour::Colour;
 use crate::render::fragments::{Fragment, Fragments};
 use crate::render::picture::Picture;
 use crate::render::view::{Rays, View};
 use crate::visibility::Visibility;
-use fredholm::value::Value;
+use fredholm::value::Rgb;
 use rayon::prelude::*;
 use std::f64::consts::FRAC_1_PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -17,9 +18,11 @@ pub struct Sightings<V> {
     fragments: Fragments,
     /// The radiosity and the irradiance of each, in W/m².
     light: Vec<[V; 2]>,
+    /// The radiance beyond the scene in each pixel, in W/(m² sr).
+    beyond: Vec<Rgb>,
 }
 
-impl<V: Value> Sightings<V> {
+impl<V: Colour> Sightings<V> {
     /// Looks. `polygons` are those of the scene, in the order of its surfaces; the view's `gather` plays no part. `progress`
     /// is told how many rows are lit.
     pub fn new(
@@ -41,7 +44,8 @@ impl<V: Value> Sightings<V> {
             light
         };
         let light = (0..view.height).into_par_iter().map(row).collect::<Vec<_>>().concat();
-        Self { fragments, light }
+        let beyond = fragments.beyond(|direction| lights::beyond(field.lights(), direction).to_rgb());
+        Self { fragments, light, beyond }
     }
 
     /// The mean over what a pixel shows of a number of its radiosity and irradiance; none where most of it shows nothing.
@@ -62,6 +66,6 @@ impl<V: Value> Sightings<V> {
 impl<V: Colour> Sightings<V> {
     /// The picture: the radiance B/π.
     pub fn picture(&self) -> Picture {
-        self.fragments.resolve(|k| self.light[k][0].to_rgb() * FRAC_1_PI)
+        self.fragments.resolve(|k| self.light[k][0].to_rgb() * FRAC_1_PI, &self.beyond)
     }
 }

@@ -1,5 +1,6 @@
 //! A quick picture of the patches as they are, for the frames of a solution that converges.
 
+use crate::lights;
 use crate::patches::Patches;
 use crate::polygon::Polygon;
 use crate::render::colour::Colour;
@@ -7,18 +8,20 @@ use crate::render::fragments::Fragments;
 use crate::render::picture::Picture;
 use crate::render::view::{Rays, View};
 use crate::visibility::Visibility;
-use fredholm::value::Value;
+use fredholm::value::Rgb;
 use std::f64::consts::PI;
 
 /// Which patches each pixel of a view shows: found once, so that a frame costs no rays.
 pub struct Preview {
     fragments: Fragments,
+    /// The radiance beyond the scene in each pixel, in W/(m² sr).
+    beyond: Vec<Rgb>,
 }
 
 impl Preview {
     /// Finds the patches in sight. `polygons` are those of the scene, in the order of its surfaces; the view's
     /// `gather` plays no part.
-    pub fn new<V: Value>(
+    pub fn new<V: Colour>(
         view: &View,
         polygons: &[Polygon],
         patches: &Patches<V>,
@@ -27,7 +30,9 @@ impl Preview {
         let rays = Rays::new(&view.camera, view.width, view.height);
         let shape = (rays, view.width, view.height, view.samples);
         let patch_at = |polygon, point| patches.patch_at(polygon, point) as u32;
-        Self { fragments: Fragments::new(shape, polygons, visibility, patch_at) }
+        let fragments = Fragments::new(shape, polygons, visibility, patch_at);
+        let beyond = fragments.beyond(|direction| lights::beyond(&patches.lights, direction).to_rgb());
+        Self { fragments, beyond }
     }
 
     /// The mean of a number of each patch over what a pixel shows; none where most of it shows nothing, or something
@@ -47,6 +52,6 @@ impl Preview {
     /// The picture of these radiosities, in W/m², one per patch.
     pub fn draw<V: Colour>(&self, radiosity: &[V]) -> Picture {
         let radiance: Vec<_> = radiosity.iter().map(|b| b.to_rgb() * (1.0 / PI)).collect();
-        self.fragments.resolve(|k| radiance[self.fragments.all[k].shown as usize])
+        self.fragments.resolve(|k| radiance[self.fragments.all[k].shown as usize], &self.beyond)
     }
 }

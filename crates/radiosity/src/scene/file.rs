@@ -4,7 +4,7 @@
 //! name = "Office"                       # optional; else the file's name
 //! unit = "mm"                           # of the meshes and of every length here: mm, cm, m, in, ft, or metres as a number
 //! meshes = ["room.obj", "desk.stl"]     # beside this file: .obj, .glb, .gltf, .stl, .ply, .vs3
-//! up = [0, 0, 1]                        # optional: this, and north = [0, 1, 0], for the sun and the camera
+//! up = [0, 0, 1]                        # optional: this, and north = [0, 1, 0], for the sun, the sky and the camera
 //!
 //! [materials.white]                     # a material by its name in the meshes; what is not given stays as it is there
 //! reflectance = 0.8                     # or [red, green, blue]
@@ -32,6 +32,13 @@
 //! elevation = 40                        # degrees over the horizon; or, for both, `direction`, the way that its light goes
 //! normal_irradiance = 800               # W/m² across its beam, or [red, green, blue]; photometric: `normal_illuminance` in lx
 //!
+//! [sky]                                 # around the scene, above the horizon; below it there is nothing
+//! kind = "cie"                          # or "uniform", or "cie-overcast", (1 + 2 sin of the elevation)/3
+//! type = 12                             # of a "cie" sky: 1 to 15, as ISO 15469:2004 numbers them
+//! horizontal_irradiance = 120           # W/m² of the sky alone, or `zenith_radiance` in W/(m² sr); photometric:
+//!                                       # `horizontal_illuminance` in lx, or `zenith_luminance` in cd/m²
+//! azimuth = 135                         # where the sun is of a sky that depends on it, if there is no [sun]; also `elevation`
+//!
 //! [camera]
 //! position = [1000, -3000, 1500]
 //! target = [1000, 0, 1200]              # or `direction`
@@ -50,6 +57,7 @@
 use super::compass::Compass;
 use super::error::{Error, Place, Problem};
 use super::light::entry::LightEntry;
+use super::light::sky_entry::SkyEntry;
 use super::light::sun_entry::SunEntry;
 use super::load::{Loaded, SolveOptions, read_mesh};
 use super::luminaire::entry::LuminaireEntry;
@@ -89,6 +97,13 @@ pub(super) fn load(file: &Path, units: Option<Units>) -> Result<Loaded, Error> {
     if let Some(sun) = &entry.sun {
         lights.push(source.sun(sun, &compass, units)?.into());
     }
+    if let Some(sky) = &entry.sky {
+        let sun = lights.iter().rev().find_map(|light| match light {
+            Light::Sun(sun) => Some(-sun.direction),
+            _ => None,
+        });
+        lights.push(source.sky(sky, &compass, sun, units)?.into());
+    }
     let camera = entry.camera.map(|camera| source.camera(&camera, metres, &compass)).transpose()?;
     let camera = camera.or_else(|| meshes.iter().find_map(|mesh| mesh.camera));
     let Assembled { surfaces, faces, mut warnings, clean_up } = mesh::assemble(meshes, &overrides)?;
@@ -116,6 +131,7 @@ struct SceneEntry {
     up: Option<Spanned<[f64; 3]>>,
     north: Option<Spanned<[f64; 3]>>,
     sun: Option<Spanned<SunEntry>>,
+    sky: Option<Spanned<SkyEntry>>,
     camera: Option<Spanned<CameraEntry>>,
     #[serde(default)]
     solve: SolveOptions,

@@ -41,7 +41,7 @@ pub use error::{Error, Place, Problem, Warning};
 pub use examine::{Component, Defect, Finding, Report, examine};
 pub use face::Face;
 pub use file::percent;
-pub use light::{Distribution, Light, PointLight, Spot, Sun};
+pub use light::{Distribution, Light, PointLight, Sky, Spot, Sun};
 pub use load::{Loaded, SolveOptions, load, load_in, load_unlit};
 pub use luminaire::{Aimed, Web};
 pub use mesh::CleanUp;

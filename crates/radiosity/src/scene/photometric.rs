@@ -7,7 +7,7 @@ use super::error::{Error, Place, Problem};
 use super::load::Loaded;
 use super::material::{Located, Material};
 use super::mesh::Mesh;
-use super::{Scene, Surface};
+use super::{Light, Scene, Surface};
 use fredholm::value::{Rgb, Spectrum};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -69,10 +69,20 @@ impl Loaded {
     }
 }
 
-/// Refuses colours of materials that some face is of.
+/// Refuses colours of materials that some face is of, and of lights.
 pub(super) fn check_grey(meshes: &[Mesh], overrides: &BTreeMap<String, Material>) -> Result<(), Error> {
     let nothing = Material::default();
     for mesh in meshes {
+        if let Some(light) =
+            mesh.lights.iter().map(Light::amount).find(|Spectrum([r, g, b])| r != g || g != b)
+        {
+            let [r, g, b] = light.0;
+            let what = format!(
+                "a light of the file is the colour [{r}, {g}, {b}], and a photometric scene has one channel, weighed by the eye: \
+                 make it white"
+            );
+            return Err(Problem::Malformed(what).at(Place::file(&mesh.file)));
+        }
         for group in &mesh.groups {
             let Some(name) = group.material.as_ref().map(|material| &material.name) else { continue };
             let own = group.paint.as_ref().or_else(|| mesh.materials.get(name)).unwrap_or(&nothing);

@@ -32,10 +32,19 @@ pub(crate) struct Blockers {
 type Edge = (u32, u32);
 
 impl Blockers {
-    /// From the faces of a scene.
+    /// From the faces of a scene, for points of it.
     pub fn new(faces: &[Polygon]) -> Self {
+        Self::of(faces, true)
+    }
+
+    /// From the faces of a scene, for what comes from beyond it and looks in where bodies are open.
+    pub fn from_beyond(faces: &[Polygon]) -> Self {
+        Self::of(faces, false)
+    }
+
+    fn of(faces: &[Polygon], nothing_looks_in: bool) -> Self {
         let mesh = Mesh::new(faces);
-        let Closed { body_of_face, boxes: bodies, caps } = mesh.bodies();
+        let Closed { body_of_face, boxes: bodies, caps } = mesh.bodies(nothing_looks_in);
         let mut blockers = Self {
             polygons: Vec::new(),
             body: Vec::new(),
@@ -229,15 +238,16 @@ impl<'a> Mesh<'a> {
 
     /// The body that each face is of, if it is of a closed one, the boxes around the bodies, and what closes them.
     ///
-    /// Closed is also what stands with its open end on a plane that has the whole scene on one side: nothing looks in there.
-    fn bodies(&self) -> Closed {
+    /// Closed is also what stands with its open end on a plane that has the whole scene on one side, if nothing looks in there.
+    fn bodies(&self, nothing_looks_in: bool) -> Closed {
         let (component, count) = self.components(|_, _| true);
         let mut open = vec![HashMap::new(); count as usize];
         for (corners, c) in self.corners.iter().zip(&component) {
             let edges = cyclic(corners).filter(|&edge| self.across(edge).is_none());
             open[*c as usize].extend(edges.map(|(u, v)| (v, u)));
         }
-        let caps: Vec<_> = open.iter().map(|edges| self.cap(edges)).collect();
+        let caps: Vec<_> =
+            open.iter().map(|edges| if nothing_looks_in { self.cap(edges) } else { None }).collect();
         let closed: Vec<bool> =
             open.iter().zip(&caps).map(|(o, cap)| o.is_empty() || cap.is_some()).collect();
         let mut boxes = vec![bounds(std::iter::empty()); count as usize];

@@ -23,12 +23,15 @@ mod walls;
 pub use count::{Count, RayCount};
 
 use crate::polygon::Polygon;
+use crate::sky::cover::Cover;
+use crate::sky::{self, Dome};
 use bvh::Bvh;
 pub(crate) use end::End;
-use facet::{Facet, Frame};
+use facet::{Facet, Frame, ON_PLANE};
 use glam::DVec3;
 use ray::{Blocker, Nearest, Ray};
 use shaft::Shaft;
+use std::sync::OnceLock;
 
 /// May s and t see each other?
 #[derive(Clone, Debug)]
@@ -39,6 +42,8 @@ pub struct Visibility {
     occluders: Bvh,
     /// What has the whole scene on one side of its plane and hides nothing: the walls of a convex room.
     walls: Bvh,
+    /// What hides the sky, once somebody has asked.
+    cover: OnceLock<Cover>,
 }
 
 /// Where a ray meets the first polygon on its way.
@@ -65,7 +70,7 @@ impl Visibility {
         let (walls, occluders): (Vec<_>, Vec<_>) =
             triangles.into_iter().partition(|&(_, k)| is_wall[k as usize]);
         let occluders = if walls.is_empty() { all } else { Bvh::new(&occluders) };
-        Self { frame, facets, occluders, walls: Bvh::new(&walls) }
+        Self { frame, facets, occluders, walls: Bvh::new(&walls), cover: OnceLock::new() }
     }
 
     /// Whether any polygon can be between two points of the scene: in an empty convex room none can.
@@ -102,6 +107,20 @@ impl Visibility {
             self.walls.walk(&mut query);
         }
         query.found.is_none()
+    }
+
+    /// The irradiance at a point of a surface with a unit normal from what the polygons leave of a sky, in sr: its zenith has a
+    /// radiance of 1.
+    pub(crate) fn received_from(&self, sky: &Dome, point: DVec3, normal: DVec3) -> f64 {
+        let polygon = |facet: &Facet| match *facet.vertices() {
+            [a, b, c, d] => Polygon::quadrilateral(a, b, c, d),
+            _ => Polygon::triangle(facet.corners()[0], facet.corners()[1], facet.corners()[2]),
+        };
+        let cover = self.cover.get_or_init(|| {
+            let polygons: Vec<Polygon> = self.facets.iter().map(polygon).collect();
+            Cover::new(&polygons, ON_PLANE)
+        });
+        sky::received(sky, cover, self.frame.point(point), normal)
     }
 
     /// The first polygon, seen from either side, that a ray meets; `direction` is a unit vector.

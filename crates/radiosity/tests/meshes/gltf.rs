@@ -394,6 +394,10 @@ fn lights_and_the_camera_stand_where_their_nodes_do() {
     let lights = load_unlit(&folder("gltf_lights").join("a.toml")).unwrap().scene.lights;
     let Light::Point(first) = &lights[0] else { panic!("{lights:?}") };
     assert!(lights.len() == 4 && first.position.distance(DVec3::new(4e-3, 5e-3, 7e-3)) < 1e-12);
+    // Its point light is a colour, which lumens have not.
+    std::fs::write(folder("gltf_lights").join("b.toml"), format!("units = 'photometric'\n{toml}")).unwrap();
+    let message = load_unlit(&folder("gltf_lights").join("b.toml")).unwrap_err().to_string();
+    assert!(message.contains("a.glb: a light of the file is the colour [40, 20, 10]"), "{message}");
     // A beam that ends before it begins, and the axis of a node without an extent along it.
     for (from, to, what) in [
         ("innerConeAngle\":0.25", "innerConeAngle\":1.75", "its beam is whole up to 100.26"),

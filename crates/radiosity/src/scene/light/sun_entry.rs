@@ -21,16 +21,21 @@ pub(in crate::scene) struct SunEntry {
     normal_illuminance: Option<Spanned<f64>>,
 }
 
+/// Where a sun is said to be.
+pub(super) struct Said<'a> {
+    pub direction: Option<&'a Spanned<[f64; 3]>>,
+    pub azimuth: Option<&'a Spanned<f64>>,
+    pub elevation: Option<&'a Spanned<f64>>,
+}
+
 impl Source<'_> {
     /// The sun of a scene.
     pub fn sun(&self, entry: &Spanned<SunEntry>, compass: &Compass, units: Units) -> Result<Sun<Rgb>, Error> {
         let SunEntry { direction, azimuth, elevation, normal_irradiance, normal_illuminance } =
             entry.get_ref();
-        let towards = self.towards_sun(
-            (direction.as_ref(), azimuth.as_ref(), elevation.as_ref()),
-            &entry.span(),
-            compass,
-        )?;
+        let said =
+            Said { direction: direction.as_ref(), azimuth: azimuth.as_ref(), elevation: elevation.as_ref() };
+        let towards = self.towards_sun(&said, &entry.span(), compass)?;
         let irradiance = self.amount(
             ("normal_irradiance", normal_irradiance.as_ref()),
             ("normal_illuminance", normal_illuminance.as_ref()),
@@ -41,19 +46,15 @@ impl Source<'_> {
     }
 
     /// The unit vector towards the sun, from the way that its light goes, or from two angles in degrees.
-    pub fn towards_sun(
+    pub(super) fn towards_sun(
         &self,
-        (direction, azimuth, elevation): (
-            Option<&Spanned<[f64; 3]>>,
-            Option<&Spanned<f64>>,
-            Option<&Spanned<f64>>,
-        ),
+        said: &Said<'_>,
         span: &Range<usize>,
         compass: &Compass,
     ) -> Result<DVec3, Error> {
         let bad =
             |what: &str, span: &Range<usize>| Err(Problem::Malformed(what.to_owned()).at(self.place(span)));
-        match (direction, azimuth, elevation) {
+        match (said.direction, said.azimuth, said.elevation) {
             (Some(given), None, None) => match DVec3::from(*given.get_ref()).try_normalize() {
                 Some(direction) => Ok(-direction),
                 None => bad(

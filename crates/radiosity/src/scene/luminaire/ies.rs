@@ -48,7 +48,7 @@ pub(super) fn read(text: &str) -> Result<(Web, Vec<String>), Fault> {
         measured.push((c, row.collect::<Result<Vec<f64>, Fault>>()?));
     }
     // 0 and 360 are one plane; that at 0 stays.
-    let mut web = Web::new(measured, gammas.iter().map(|(_, gamma)| *gamma).collect(), symmetry)?;
+    let mut web = Web::new(&measured, gammas.iter().map(|(_, gamma)| *gamma).collect(), symmetry)?;
     web.lamps = (head.lumens > 0.0).then_some(head.lamps * head.lumens);
     web.size = head.size;
     Ok((web, told))

@@ -47,7 +47,7 @@ pub(super) fn read(text: &str) -> Result<(Web, Vec<String>), Fault> {
         webs.push((c, plane.collect::<Result<Vec<f64>, Fault>>()?));
         line += rows;
     }
-    let mut web = Web::new(webs, gammas.iter().map(|(_, gamma)| *gamma).collect(), symmetry)?;
+    let mut web = Web::new(&webs, gammas.iter().map(|(_, gamma)| *gamma).collect(), symmetry)?;
     // Less than no lamps: the flux is that of the luminaire.
     web.lamps = (lamps > 0.0).then_some(flux);
     web.stated = (output > 0.0).then_some(flux * output / 100.0);

@@ -38,7 +38,7 @@ pub(super) enum Symmetry {
 impl Web {
     /// From the planes that were measured, each with the intensities at the angles from the axis, in cd.
     pub(super) fn new(
-        measured: Vec<(f64, Vec<f64>)>,
+        measured: &[(f64, Vec<f64>)],
         gammas: Vec<f64>,
         symmetry: Symmetry,
     ) -> Result<Self, Fault> {
@@ -151,8 +151,8 @@ mod tests {
     use std::f64::consts::PI;
 
     fn web(planes: &[(f64, [f64; 3])], symmetry: Symmetry) -> Web {
-        let planes = planes.iter().map(|(c, values)| (*c, values.to_vec())).collect();
-        Web::new(planes, vec![0.0, 90.0, 180.0], symmetry).unwrap_or_else(|fault| panic!("{}", fault.what))
+        let planes: Vec<_> = planes.iter().map(|(c, values)| (*c, values.to_vec())).collect();
+        Web::new(&planes, vec![0.0, 90.0, 180.0], symmetry).unwrap_or_else(|fault| panic!("{}", fault.what))
     }
 
     #[test]
