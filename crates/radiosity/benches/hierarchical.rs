@@ -1,143 +1,94 @@
-//! Very many patches: time, memory, links and error of the hierarchical operator on four scenes.
+//! Very many patches: time, memory, links and error of the hierarchical operator on four scenes, and the matrix beside it.
 //!
-//! `cargo bench -p radiosity --bench hierarchical [-- PATCHES …]`.
+//! `cargo bench -p radiosity --bench hierarchical [-- PATCHES …]`: 1 000, 10 000 and 100 000 if none are given; a million take some
+//! minutes. Times are of the whole: clusters, sketch, links, GMRES, and the estimate of the error.
 
 #![expect(clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark prints what it measures")]
 
 mod scenes;
 
-use fredholm::krylov::Gmres;
-use fredholm::relax::{Relaxation, Stop, relax};
-use fredholm::system::System;
-use fredholm::value::{Rgb, Value, max_norm};
-use radiosity::hierarchical::{Hierarchical, Light, Plan};
+use fredholm::value::{Rgb, Value};
 use radiosity::patches::{Patches, size_for_count};
 use radiosity::scene::{Scene, cornell_box};
+use radiosity::solve::{Options, Solution, Solver, Storage, Unobserved, solve};
 use radiosity::visibility::Visibility;
 use std::time::Instant;
 
+/// Up to so many patches there is a matrix beside the links.
+const MATRIX: usize = 25_000;
+
 fn main() {
-    let given: Vec<f64> = std::env::args().skip(1).filter_map(|word| word.parse().ok()).collect();
-    let part = given.first().copied().unwrap_or(0.01);
-    let counts: Vec<usize> = given[1..].iter().map(|n| *n as usize).collect();
-    let names: Vec<String> = std::env::args()
-        .skip(1)
-        .filter(|word| word.parse::<f64>().is_err() && !word.starts_with('-'))
-        .collect();
-    println!(
-        "{:>10} {:>9} {:>8} {:>8} {:>7} {:>8} {:>7} {:>7} {:>7} {:>7} {:>7}",
-        "scene", "patches", "links/n", "rays/n", "MB", "told", "links", "patches", "true", "build", "solve"
-    );
-    for n in counts {
-        let building = (n as f64 / 2500.0).sqrt().ceil() as usize;
-        for scene in
-            [cornell_box(), scenes::boxes(), scenes::terrain(n), scenes::building(building.clamp(2, 12))]
-        {
-            if names.is_empty() || names.iter().any(|name| scene.name.contains(name.as_str())) {
-                row(&scene, n, part);
-            }
+    let given: Vec<usize> = std::env::args().skip(1).filter_map(|word| word.parse().ok()).collect();
+    let counts = if given.is_empty() { vec![1_000, 10_000, 100_000] } else { given };
+    println!("{} threads, --factor-accuracy {ACCURACY}", rayon::current_num_threads());
+    for name in ["Cornell box", "boxes", "terrain", "building"] {
+        println!(
+            "\n{name:12} {:>8} {:>8} {:>8} {:>8} {:>9} {:>8} | {:>8} {:>9} {:>10}",
+            "links/n", "rays/n", "MB", "s", "told", "of links", "matrix s", "MB", "difference"
+        );
+        let lines: Vec<[f64; 2]> = counts.iter().map(|count| line(&scene(name, *count), *count)).collect();
+        for pair in lines.windows(2) {
+            let slope = (pair[1][1] / pair[0][1]).ln() / (pair[1][0] / pair[0][0]).ln();
+            println!("slope of log time from {} to {}: {slope:.2}", pair[0][0], pair[1][0]);
         }
     }
 }
 
-fn solve(operator: &Hierarchical, patches: &Patches<Rgb>, source: &[Rgb]) -> [Vec<Rgb>; 2] {
-    let system = System::new(source, &patches.reflectance, operator).unwrap();
-    let mut gmres = Gmres::new(system);
-    let stop = Stop { residual: 1e-4 * max_norm(source), sweeps: 60 };
-    let report = relax(&mut gmres, stop, |_, _, _| true);
-    let u = gmres.solution();
-    let mut h = vec![Rgb::splat(0.0); u.len()];
-    fredholm::operator::Operator::apply(operator, &u, &mut h);
-    let _ = report;
-    [u, h]
+/// The accuracy that light is asked for to 1 %, and has at some tenths of that.
+const ACCURACY: f64 = 1e-3;
+
+/// A scene that is worth so many patches.
+fn scene(name: &str, count: usize) -> Scene<Rgb> {
+    match name {
+        "boxes" => scenes::boxes(),
+        "terrain" => scenes::terrain(count),
+        "building" => scenes::building(((count as f64 / 2500.0).sqrt().ceil() as usize).clamp(2, 20)),
+        _ => cornell_box(),
+    }
 }
 
-fn row(scene: &Scene<Rgb>, n: usize, part: f64) {
-    let patches = Patches::new(scene, size_for_count(scene, n)).unwrap();
+/// Patches and seconds.
+fn line(scene: &Scene<Rgb>, count: usize) -> [f64; 2] {
+    let patches = Patches::new(scene, size_for_count(scene, count)).unwrap();
     let visibility = Visibility::new(&scene.polygons());
-    let source = patches.emission.clone();
-    let start = Instant::now();
-    let plan = Plan::new(&patches, &visibility);
-    let tree = start.elapsed().as_secs_f64();
-    let light = Light::ambient(&patches, &source);
-    let first = plan.sketch(&light, part, 1);
-    let t1 = start.elapsed().as_secs_f64();
-    let [u, h] = solve(&first, &patches, &source);
-    let light = Light::of(&patches, &u, &h);
-    let t2 = start.elapsed().as_secs_f64();
-    let operator = plan.assemble(&light, part, 2, |_| ());
-    let build = start.elapsed().as_secs_f64();
-    let [u, h] = solve(&operator, &patches, &source);
-    let solved = start.elapsed().as_secs_f64();
-    let light = Light::of(&patches, &u, &h);
-    let judged = plan.judge(&source, &u, &light, part);
-    let told = start.elapsed().as_secs_f64();
-    let truth = if patches.len() <= 8_000 {
-        let finer = plan.assemble(&light, 0.003, 77, |_| ());
-        let [v, _] = solve(&finer, &patches, &source);
-        let norm =
-            |a: &dyn Fn(usize) -> f64| (0..v.len()).map(|i| patches.areas[i] * a(i)).sum::<f64>().sqrt();
-        if std::env::var("DUMP").is_ok() {
-            let mut worst: Vec<(f64, usize)> =
-                (0..v.len()).map(|i| (patches.areas[i] * (u[i] - v[i]).magnitude().powi(2), i)).collect();
-            worst.sort_by(|a, b| b.0.total_cmp(&a.0));
-            for (name, op) in [("operator", &operator), ("finer", &finer)] {
-                let ones = vec![1.0; v.len()];
-                let mut sums = vec![0.0; v.len()];
-                fredholm::operator::Operator::apply(op, &ones, &mut sums);
-                for surface in 0..scene.surfaces.len() {
-                    let of = || (0..v.len()).filter(|i| patches.surface[*i] as usize == surface);
-                    let mean = of().map(|i| patches.areas[i] * sums[i]).sum::<f64>()
-                        / of().map(|i| patches.areas[i]).sum::<f64>();
-                    println!("{name} {}: mean row sum {mean:.4}", scene.surfaces[surface].name);
-                }
-                println!(
-                    "{name} ceiling {:.4} links {}",
-                    (1000..1600)
-                        .filter(|i| patches.polygons[*i].normal().z < -0.9)
-                        .map(|i| sums[i])
-                        .sum::<f64>()
-                        / (1000..1600).filter(|i| patches.polygons[*i].normal().z < -0.9).count() as f64,
-                    op.statistics().links
-                );
-            }
-            let total: f64 = worst.iter().map(|w| w.0).sum();
-            let mut sum = 0.0;
-            for (k, (w, i)) in worst.iter().enumerate() {
-                sum += w;
-                if k < 25 || k.is_power_of_two() {
-                    let p = &patches.polygons[*i];
-                    println!(
-                        "{k:>6} {:.3} {i} at {:.2} n {:.1} u {:.4} v {:.4}",
-                        sum / total,
-                        p.centroid(),
-                        p.normal(),
-                        u[*i].magnitude(),
-                        v[*i].magnitude()
-                    );
-                }
-            }
-        }
-        let square = |x: Rgb| x.channels().iter().map(|c| c * c).sum::<f64>();
-        norm(&|i| square(u[i] - v[i])) / norm(&|i| square(v[i]))
-    } else {
-        f64::NAN
-    };
-    let s = operator.statistics();
+    let (linked, seconds) = solved(&patches, &visibility, Storage::Hierarchical);
+    let links = linked.links.unwrap();
     let n = patches.len() as f64;
-    println!(
-        "{:>10} {:>9} {:>8.1} {:>8.1} {:>7} {:>7.2}% {:>6.2}% {:>6.2}% {:>6.2}% {:>7.2} {:>7.2}   tree {tree:.2} first {t1:.2} solve {t2:.2} judge {:.2}",
-        scene.name,
+    let each = |count: u64| count as f64 / n;
+    print!(
+        "{:12} {:>8.1} {:>8.1} {:>8} {seconds:>8.2} {:>8.2}% {:>7.2}% |",
         patches.len(),
-        s.links as f64 / n,
-        s.rays as f64 / n,
-        s.bytes >> 20,
-        100.0 * judged.error,
-        100.0 * judged.links,
-        100.0 * judged.patches,
-        100.0 * truth,
-        build,
-        solved,
-        told - solved
+        each(links.statistics.links),
+        each(links.statistics.rays),
+        links.statistics.bytes >> 20,
+        100.0 * links.judged.error,
+        100.0 * links.judged.links,
     );
+    if patches.len() <= MATRIX {
+        let (dense, seconds) = solved(&patches, &visibility, Storage::Dense);
+        let difference = distance(&patches, &linked.radiosity, &dense.radiosity);
+        print!(" {seconds:>8.2} {:>9} {:>9.2}%", (patches.len().pow(2) * 4) >> 20, 100.0 * difference);
+    }
+    println!();
+    [n, seconds]
+}
+
+fn solved(patches: &Patches<Rgb>, visibility: &Visibility, storage: Storage) -> (Solution<Rgb>, f64) {
+    let start = Instant::now();
+    let options = Options {
+        storage,
+        accuracy: ACCURACY,
+        solver: Solver::Gmres,
+        memory: u64::MAX,
+        ..Options::default()
+    };
+    let solution = solve(patches, visibility, &options, &mut Unobserved).unwrap();
+    (solution, start.elapsed().as_secs_f64())
+}
+
+/// ‖u − v‖ / ‖v‖ in the mean square.
+fn distance(patches: &Patches<Rgb>, u: &[Rgb], v: &[Rgb]) -> f64 {
+    let square = |x: Rgb| x.channels().iter().map(|c| c * c).sum::<f64>();
+    let norm = |of: &dyn Fn(usize) -> f64| (0..v.len()).map(|i| patches.areas[i] * of(i)).sum::<f64>().sqrt();
+    norm(&|i| square(u[i] - v[i])) / norm(&|i| square(v[i]))
 }
