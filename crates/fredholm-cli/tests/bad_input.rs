@@ -66,7 +66,7 @@ const NUMBERS: &[Case] = &[
     ("--patch-size nan", 2, &["positive finite number"]),
     ("--patch-size 0", 2, &["positive finite number"]),
     ("--patch-size 1e-9 --frames f", 1, &["patches", "give a larger one"]),
-    ("--patch-size 0.002 --frames f", 1, &["MB are free", "southwell"]),
+    ("--patch-size 0.002 --operator dense --frames f", 1, &["MB are free", "hierarchical"]),
     ("--patch-size 1 --patch-count 5", 2, &["cannot be used with"]),
     ("--patch-count 0", 2, &["1 or more"]),
     ("--accuracy -1", 2, &["--accuracy"]),

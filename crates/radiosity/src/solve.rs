@@ -107,7 +107,7 @@ impl Default for Options {
 pub enum SolveError {
     /// The matrix would not fit.
     #[error(
-        "{patches} {} make a matrix of {} MB, and {} MB are free: take larger patches, or the southwell solver, which stores none",
+        "{patches} {} make a matrix of {} MB, and {} MB are free: take larger patches, the hierarchical operator, or the southwell solver, which stores none",
         if *elements { "coefficients of patches" } else { "patches" }, needed >> 20, available >> 20
     )]
     Memory {

@@ -136,3 +136,14 @@ fn memory_is_known_before_it_is_taken() {
     let taken = plan.assemble(&light, 0.1, 7, |_| ()).statistics().bytes as f64;
     assert!((0.7..1.1).contains(&(taken / planned)), "{taken} of {planned}");
 }
+
+#[test]
+fn links_that_do_not_fit_are_refused_with_advice() {
+    let (patches, visibility) = cut(&cornell_box(), 2000);
+    let options = Options { storage: Storage::Hierarchical, memory: 1 << 20, ..Options::default() };
+    let error = solve(&patches, &visibility, &options, &mut Unobserved).unwrap_err().to_string();
+    assert!(
+        error.contains("links between 2000 patches take about") && error.contains("larger patches"),
+        "{error}"
+    );
+}

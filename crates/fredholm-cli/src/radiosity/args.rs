@@ -141,7 +141,7 @@ pub struct Radiosity {
     #[arg(long, value_enum, help_heading = "Equation")]
     pub solver: Option<Solver>,
 
-    /// How form factors are kept [default: dense; on-the-fly for southwell; hierarchical from 10 000 patches on]
+    /// How form factors are kept [default: dense; on-the-fly for southwell; hierarchical from 10 000 patches or 1000 faces on]
     #[arg(long, value_enum, help_heading = "Equation")]
     pub operator: Option<Operator>,
 

@@ -44,11 +44,7 @@ impl<V: Value> Run<'_, V> {
             None => Kept::none(&plan, self.sketched(&plan, part)?, part, self.source),
         };
         let patches = self.patches.len();
-        let planned_bytes = plan.bytes(kept.light(), part);
-        if planned_bytes > self.options.memory {
-            let available = self.options.memory;
-            return Err(SolveError::Links { patches, needed: planned_bytes, available });
-        }
+        let planned_bytes = self.check_links(plan.bytes(kept.light(), part))?;
         observer.planned(planned_bytes);
         // A bar counts the entries of a matrix.
         let row = patches.div_ceil(2);
@@ -82,9 +78,18 @@ impl<V: Value> Run<'_, V> {
         })
     }
 
+    /// The bytes that links will take, if there are so many.
+    fn check_links(&self, needed: u64) -> Result<u64, SolveError> {
+        let (patches, available) = (self.patches.len(), self.options.memory);
+        if needed > available { Err(SolveError::Links { patches, needed, available }) } else { Ok(needed) }
+    }
+
     /// The light by links from one patch of each cluster, found for light that is the same everywhere.
     fn sketched(&self, plan: &Plan<'_, V>, part: f64) -> Result<Light, SolveError> {
-        let sketch = plan.sketch(&Light::ambient(self.patches, self.source), part, SEEDS[0]);
+        let ambient = Light::ambient(self.patches, self.source);
+        // For light that is the same everywhere there are about as many as for the true one: too many are told at once.
+        self.check_links(plan.bytes(&ambient, part))?;
+        let sketch = plan.sketch(&ambient, part, SEEDS[0]);
         let system = System::new(self.source, self.reflectance, &sketch)?;
         let mut relaxation = Gmres::new(system);
         let stop = Stop { residual: SKETCH.0 * max_norm(self.source), sweeps: SKETCH.1 };
