@@ -48,10 +48,12 @@ fn links_bring_what_the_matrix_brings_within_the_error_that_they_tell() {
         let dense = solved(&patches, &visibility, Storage::Dense, OWN);
         for accuracy in [3e-3, 3e-4] {
             let found = solved(&patches, &visibility, Storage::Hierarchical, accuracy);
-            let told = found.links.unwrap().judged.links;
+            let told = found.links.unwrap().judged;
             let error = distance(&patches, &found.radiosity, &dense.radiosity);
-            println!("{} {accuracy}: {error:.2e} told {told:.2e}, {} links", scene.name, found.form_factors);
-            assert!(error < told + OWN && told < 0.012, "{} {accuracy}: {error} of {told}", scene.name);
+            println!("{} {accuracy}: {error:.2e} told {:.2e} and {:.2e}", scene.name, told.links, told.error);
+            assert!(error < told.error, "{} {accuracy}: {error} of {}", scene.name, told.error);
+            // What is told of links alone is an estimate from a sample, and mostly above the error: README, "How far to trust it".
+            assert!(error < 1.2 * told.links + OWN && told.links < 0.012, "{error} of {}", told.links);
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::clusters::Clusters;
 use crate::form_factor::sampled::{mix, unit};
 use crate::form_factor::{contour, lambert};
+use crate::kernel::{self, SurfacePoint};
 use crate::polygon::Polygon;
 use crate::visibility::Visibility;
 use fredholm::operator::hierarchical::Cluster;
@@ -16,7 +17,8 @@ pub(super) struct Factors<'a> {
     pub visibility: &'a Visibility,
     /// Other rays with another one.
     pub seed: u64,
-    /// Whether to take the mean over four points of a patch, in place of its middle, of what comes from clusters.
+    /// Whether to take the mean over four points of a patch, in place of its middle, of what comes from clusters, and from patches
+    /// that are three times as far away.
     pub fine: bool,
 }
 
@@ -37,8 +39,10 @@ const POINT: f64 = 4.0;
 /// A patch nearer than their size is integrated over its outline.
 const NEAR: f64 = 0.6;
 
-/// Most rays between two patches.
+/// Rays between two patches: most, and least if they are near and what they exchange is more than this part of what is worth one.
 const MOST_RAYS: u32 = 16;
+const LEAST_RAYS: u32 = 8;
+const NEAR_MATTERS: f64 = 0.25;
 
 impl Factors<'_> {
     /// Whether it is proved that nothing is between a polygon and a cluster.
@@ -69,9 +73,29 @@ impl Factors<'_> {
         if whole <= 0.0 || link.clear {
             return (whole.max(0.0), 0);
         }
-        let rays = ((whole / link.worth).ceil() as u32).clamp(1, MOST_RAYS);
-        let clear = (0..rays).filter(|ray| self.is_clear(patch, link, *ray)).count();
-        (whole * clear as f64 / f64::from(rays), rays)
+        // Near patches see each other from where the kernel is large, or do not: rays are weighed by it, and one tells nothing.
+        let near = whole > NEAR_MATTERS * link.worth && self.is_near(patch, link.sender);
+        let least = if near { LEAST_RAYS } else { 1 };
+        let rays = ((whole / link.worth).ceil() as u32).clamp(least, MOST_RAYS);
+        let (mut all, mut clear) = (0.0, 0.0);
+        for ray in 0..rays {
+            let [x, y] = self.ends(patch, link, ray);
+            let weight = if near { kernel::unoccluded(&x, &y) } else { 1.0 };
+            // Infinite where two patches touch: one point of many.
+            if weight > 0.0 && weight.is_finite() {
+                all += weight;
+                clear += if self.visibility.unoccluded(x.position, y.position) { weight } else { 0.0 };
+            }
+        }
+        (if all > 0.0 { whole * clear / all } else { 0.0 }, rays)
+    }
+
+    /// Whether a cluster is a patch that is no further than twice the size of the larger of both.
+    fn is_near(&self, patch: usize, sender: Cluster) -> bool {
+        let Some(other) = self.clusters.patch(sender) else { return false };
+        let [here, there] = [patch, other].map(|k| &self.polygons[k]);
+        let size = here.area().max(there.area()).sqrt();
+        here.centroid().distance_squared(there.centroid()) < 4.0 * size * size
     }
 
     /// From a point to four parts of a cluster, each as one element of area.
@@ -96,7 +120,7 @@ impl Factors<'_> {
         let between = there.centroid() - here.centroid();
         let size = (here.area().sqrt()).max(there.area().sqrt());
         let distance = between.length();
-        if distance > POINT * size {
+        if distance > if self.fine { 3.0 * POINT } else { POINT } * size {
             let square = distance * distance;
             let (leaves, arrives) = (between.dot(here.normal()), -between.dot(there.normal()));
             let facing = leaves > 0.0 && arrives > 0.0;
@@ -120,18 +144,18 @@ impl Factors<'_> {
         mean / QUARTERS.len() as f64
     }
 
-    /// Whether a point of the patch sees one of the sender.
-    fn is_clear(&self, patch: usize, link: &Link, ray: u32) -> bool {
+    /// A point of the patch and one of the sender.
+    fn ends(&self, patch: usize, link: &Link, ray: u32) -> [SurfacePoint; 2] {
         let mut random = Random::new(self.seed, patch as u64, link.number << 5 | u64::from(ray));
         let (mut at, mut u) = (link.sender, random.next());
         while let Some([a, b]) = self.clusters.tree.children(at) {
             let part = self.clusters.whole(a).area / self.clusters.whole(at).area;
             (at, u) = if u < part { (a, u / part) } else { (b, (u - part) / (1.0 - part)) };
         }
-        let there = &self.polygons[self.clusters.tree.members(at)[0]];
-        let [s, t, v, w] = std::array::from_fn(|_| random.next());
-        let (x, y): (DVec3, DVec3) = (self.polygons[patch].point(s, t), there.point(v, w));
-        self.visibility.unoccluded(x, y)
+        [patch, self.clusters.tree.members(at)[0]].map(|k| {
+            let (polygon, s, t) = (&self.polygons[k], random.next(), random.next());
+            SurfacePoint { position: polygon.point(s, t), normal: polygon.normal() }
+        })
     }
 }
 
