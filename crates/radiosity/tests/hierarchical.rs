@@ -1,5 +1,7 @@
 //! Links to clusters against the matrix that they stand for.
 
+#![allow(clippy::unwrap_used, reason = "in a test a panic is the message, in its helpers too")]
+
 use fredholm::operator::{Columns, Matrix, Operator, Rows, TransposedOperator};
 use fredholm::value::{Rgb, Value};
 use radiosity::hierarchical::{Hierarchical, Light, Plan};
