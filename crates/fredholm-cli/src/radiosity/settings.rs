@@ -15,7 +15,7 @@ use std::path::Path;
 const PATCHES: usize = 5000;
 
 /// So many patches are linked to clusters where nobody says how form factors are to be kept, and those of so many faces, of which
-/// hardly a pair is proved to be in sight or out of it: the matrix takes 9 to 180 times as long for 10 000 patches, and 20 times
+/// hardly a pair is proved to be in sight or out of it: the matrix takes 8 to 175 times as long for 10 000 patches, and 20 times
 /// for those of a thousand faces.
 const LINKED: usize = 10_000;
 const FACES: usize = 1000;
