@@ -390,6 +390,7 @@ impl<V: Value> Run<'_, V> {
     ) -> Result<Solution<V>, SolveError> {
         let start = Instant::now();
         let n = operator.dim();
+        self.check_factors(n)?;
         let system = System::new(self.source, self.reflectance, operator)?;
         let mut relaxation = self.relaxation(system);
         let report = self.relax(&mut *relaxation, observer)?;
@@ -413,6 +414,11 @@ impl<V: Value> Run<'_, V> {
                 Box::new(if self.options.ambient { southwell.with_ambient() } else { southwell })
             }
         }
+    }
+
+    /// Whether the factors of LU fit, which are a matrix however F is kept.
+    fn check_factors(&self, n: usize) -> Result<(), SolveError> {
+        if self.options.solver == Solver::Direct { self.check_memory(n) } else { Ok(()) }
     }
 
     /// Whether the matrix fits, and for LU the factors of as many channels as are worked on at once.

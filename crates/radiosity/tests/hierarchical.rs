@@ -7,7 +7,7 @@ use fredholm::value::{Rgb, Value};
 use radiosity::hierarchical::{Hierarchical, Light, Plan};
 use radiosity::patches::{Patches, size_for_count};
 use radiosity::scene::{Scene, cornell_box};
-use radiosity::solve::{Options, Solution, Solver, Storage, Unobserved, solve};
+use radiosity::solve::{Options, Solution, SolveError, Solver, Storage, Unobserved, solve};
 use radiosity::visibility::Visibility;
 
 #[path = "../benches/scenes/mod.rs"]
@@ -150,4 +150,10 @@ fn links_that_do_not_fit_are_refused_with_advice() {
         error.contains("links between 2000 patches take about") && error.contains("larger patches"),
         "{error}"
     );
+    // LU makes a matrix of them, however they are kept.
+    for storage in [Storage::Hierarchical, Storage::OnTheFly] {
+        let options = Options { storage, solver: Solver::Direct, memory: 8 << 20, ..options };
+        let error = solve(&patches, &visibility, &options, &mut Unobserved).unwrap_err();
+        assert!(matches!(error, SolveError::Memory { patches: 2000, .. }), "{error}");
+    }
 }

@@ -37,6 +37,7 @@ impl<V: Value> Run<'_, V> {
     /// Solves with links.
     pub(super) fn link(&self, observer: &mut dyn Observer<V>) -> Result<Solution<V>, SolveError> {
         let start = Instant::now();
+        self.check_factors(self.patches.len())?;
         let part = (PART * self.options.accuracy).min(MOST);
         let plan = Plan::new(self.patches, self.visibility);
         let kept = match observer.kept() {
