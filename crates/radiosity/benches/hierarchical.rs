@@ -1,7 +1,7 @@
 //! Very many patches: time, memory, links and error of the hierarchical operator on four scenes, and the matrix beside it.
 //!
-//! `cargo bench -p radiosity --bench hierarchical [-- PATCHES …]`: 1 000, 10 000 and 100 000 if none are given; a million take some
-//! minutes. Times are of the whole: clusters, sketch, links, GMRES, and the estimate of the error.
+//! `cargo bench -p radiosity --bench hierarchical [-- PATCHES … SCENE …]`: 1 000, 10 000 and 100 000 if none are given, and all four
+//! scenes; a million take some minutes each. Times are of the whole: clusters, sketch, links, GMRES, and the estimate of the error.
 
 #![expect(clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark prints what it measures")]
 
@@ -18,10 +18,13 @@ use std::time::Instant;
 const MATRIX: usize = 25_000;
 
 fn main() {
-    let given: Vec<usize> = std::env::args().skip(1).filter_map(|word| word.parse().ok()).collect();
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let given: Vec<usize> = words.iter().filter_map(|word| word.parse().ok()).collect();
     let counts = if given.is_empty() { vec![1_000, 10_000, 100_000] } else { given };
+    let named = |name: &&str| words.iter().any(|word| word == name);
+    let names = ["Cornell box", "boxes", "terrain", "building"];
     println!("{} threads, --factor-accuracy {ACCURACY}", rayon::current_num_threads());
-    for name in ["Cornell box", "boxes", "terrain", "building"] {
+    for name in names.iter().filter(|name| named(name) || !names.iter().any(named)) {
         println!(
             "\n{name:12} {:>8} {:>8} {:>8} {:>8} {:>9} {:>8} | {:>8} {:>9} {:>10}",
             "links/n", "rays/n", "MB", "s", "told", "of links", "matrix s", "MB", "difference"

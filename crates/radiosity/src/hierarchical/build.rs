@@ -117,7 +117,15 @@ impl<'a, V: Value> Plan<'a, V> {
         [deviation, brightness, arriving]: &'b [Vec<f64>; 3],
         part: f64,
     ) -> Cuts<'b> {
-        Cuts { clusters: &self.clusters, visibility: self.visibility, brightness, deviation, arriving, part }
+        Cuts {
+            clusters: &self.clusters,
+            polygons: &self.patches.polygons,
+            visibility: self.visibility,
+            brightness,
+            deviation,
+            arriving,
+            part,
+        }
     }
 
     pub(super) fn factors(&self, seed: u64, fine: bool) -> Factors<'_> {

@@ -1,5 +1,6 @@
 //! Clusters of patches: near each other, and facing alike. Of each what is needed to bound and to compute what it sends.
 
+use super::random::Random;
 use crate::patches::Patches;
 use crate::polygon::Polygon;
 use fredholm::operator::hierarchical::{Bounds, Cluster, ClusterTree};
@@ -191,6 +192,16 @@ impl Clusters {
     /// The patch that a cluster is, if it is one.
     pub fn patch(&self, cluster: Cluster) -> Option<usize> {
         self.tree.children(cluster).is_none().then(|| self.tree.members(cluster)[0])
+    }
+
+    /// A patch of a cluster, each as likely as it is large.
+    pub fn any(&self, cluster: Cluster, random: &mut Random) -> usize {
+        let (mut at, mut u) = (cluster, random.next());
+        while let Some([a, b]) = self.tree.children(at) {
+            let part = self.whole(a).area / self.whole(at).area;
+            (at, u) = if u < part { (a, u / part) } else { (b, (u - part) / (1.0 - part)) };
+        }
+        self.tree.members(at)[0]
     }
 
     /// A polygon that all of its patches are in: the patch itself, or a rectangle around those of one plane.

@@ -1,6 +1,9 @@
 //! What a cluster of patches gathers from: clusters as large as the error allows, seen from it.
 
 use super::clusters::{Clusters, Whole};
+use super::random::Random;
+use crate::kernel;
+use crate::polygon::Polygon;
 use crate::visibility::Visibility;
 use fredholm::operator::hierarchical::Cluster;
 
@@ -11,6 +14,7 @@ use fredholm::operator::hierarchical::Cluster;
 #[derive(Debug)]
 pub(super) struct Cuts<'a> {
     pub clusters: &'a Clusters,
+    pub polygons: &'a [Polygon],
     pub visibility: &'a Visibility,
     /// How bright each cluster is.
     pub brightness: &'a [f64],
@@ -33,6 +37,12 @@ const ALIKE: f64 = 0.9;
 /// not alike and some are hidden. Errors of that kind add up.
 const WRONG: f64 = 0.02;
 
+/// Rays that tell how much of a cluster is seen whose middle is not.
+const PROBES: u64 = 16;
+
+/// Another seed than that of any links.
+const SEED: u64 = 0xc075;
+
 impl Cuts<'_> {
     /// The clusters, in the order of the tree, of which some may be single patches.
     pub fn of(&self, receiver: Cluster, found: &mut Vec<Cluster>) {
@@ -48,28 +58,45 @@ impl Cuts<'_> {
                 continue;
             }
             let is_far = || there.turn.0 >= ALIKE && there.radius() <= FAR * here.distance(there);
-            let unlike = factor * self.deviation[cluster.index()];
-            if factor > 0.0 && self.is_hidden(here, there) {
+            // How many times more than it may a link brings, or is wrong.
+            let wrong = factor * self.deviation[cluster.index()] / WRONG;
+            let excess = energy.max(wrong).max(if is_far() { 0.0 } else { energy / WRONG }) / most;
+            let blocker = self.blocker(here, there);
+            if blocker.is_some_and(|id| self.hides(id, here, there)) {
                 continue;
             }
+            let counts =
+                || excess > 1.0 && (blocker.is_none() || self.is_seen(receiver, cluster, excess.recip()));
             match self.clusters.tree.children(cluster) {
-                Some([a, b])
-                    if energy > most || unlike > WRONG * most || (energy > WRONG * most && !is_far()) =>
-                {
-                    stack.extend([b, a]);
-                }
+                Some([a, b]) if counts() => stack.extend([b, a]),
                 _ => found.push(cluster),
             }
         }
     }
 
+    /// What is between the middles of two clusters.
+    fn blocker(&self, here: &Whole, there: &Whole) -> Option<u32> {
+        let apart = self.visibility.hides_anything() && here.distance(there) > 0.0;
+        if apart { self.visibility.blocker(here.middle, there.middle) } else { None }
+    }
+
     /// Whether one polygon is proved to hide all of one cluster from all of the other.
-    fn is_hidden(&self, here: &Whole, there: &Whole) -> bool {
-        if !self.visibility.hides_anything() || here.distance(there) == 0.0 {
-            return false;
-        }
-        let blocker = self.visibility.blocker(here.middle, there.middle);
-        blocker
-            .is_some_and(|id| self.visibility.certainly_blocks_hulls(id, &here.corners(), &there.corners()))
+    fn hides(&self, id: u32, here: &Whole, there: &Whole) -> bool {
+        self.visibility.certainly_blocks_hulls(id, &here.corners(), &there.corners())
+    }
+
+    /// Whether more than a part of what a cluster sends to another seems to arrive: a ray does, of as many as would be expected to.
+    fn is_seen(&self, receiver: Cluster, sender: Cluster, part: f64) -> bool {
+        let rays = part.recip().ceil() as u64;
+        let ends = [receiver, sender].map(|cluster| self.clusters.tree.members(cluster));
+        let mut random = Random::new(SEED, receiver.index() as u64, sender.index() as u64);
+        rays > PROBES
+            || (0..rays).any(|_| {
+                let [x, y] = ends.map(|members| {
+                    let patch = members[(random.next() * members.len() as f64) as usize];
+                    random.point(&self.polygons[patch])
+                });
+                kernel::unoccluded(&x, &y) > 0.0 && self.visibility.unoccluded(x.position, y.position)
+            })
     }
 }

@@ -1,7 +1,7 @@
 //! F_iC = 1/A_i ∫_{P_i} ∫_C K(x, y) dy dx, from a patch to a cluster: its size by formula, what of it arrives by rays.
 
 use super::clusters::Clusters;
-use crate::form_factor::sampled::{mix, unit};
+use super::random::Random;
 use crate::form_factor::{contour, lambert};
 use crate::kernel::{self, SurfacePoint};
 use crate::polygon::Polygon;
@@ -147,31 +147,9 @@ impl Factors<'_> {
     /// A point of the patch and one of the sender.
     fn ends(&self, patch: usize, link: &Link, ray: u32) -> [SurfacePoint; 2] {
         let mut random = Random::new(self.seed, patch as u64, link.number << 5 | u64::from(ray));
-        let (mut at, mut u) = (link.sender, random.next());
-        while let Some([a, b]) = self.clusters.tree.children(at) {
-            let part = self.clusters.whole(a).area / self.clusters.whole(at).area;
-            (at, u) = if u < part { (a, u / part) } else { (b, (u - part) / (1.0 - part)) };
-        }
-        [patch, self.clusters.tree.members(at)[0]].map(|k| {
-            let (polygon, s, t) = (&self.polygons[k], random.next(), random.next());
-            SurfacePoint { position: polygon.point(s, t), normal: polygon.normal() }
-        })
+        let other = self.clusters.any(link.sender, &mut random);
+        [patch, other].map(|k| random.point(&self.polygons[k]))
     }
 }
 
 const QUARTERS: [[f64; 2]; 4] = [[0.25, 0.25], [0.25, 0.75], [0.75, 0.25], [0.75, 0.75]];
-
-/// Numbers that are hashes of what they are for: they do not depend on who asks first.
-struct Random(u64);
-
-impl Random {
-    fn new(seed: u64, patch: u64, number: u64) -> Self {
-        Self(mix(mix(mix(seed) ^ patch) ^ number))
-    }
-
-    /// In [0, 1).
-    fn next(&mut self) -> f64 {
-        self.0 = mix(self.0);
-        unit(self.0)
-    }
-}

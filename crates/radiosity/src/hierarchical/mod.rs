@@ -14,6 +14,7 @@ mod error;
 mod factor;
 mod kept;
 mod lines;
+mod random;
 
 pub use build::{Light, Plan};
 pub use error::Judged;
