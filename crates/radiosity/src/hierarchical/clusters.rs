@@ -1,6 +1,5 @@
 //! Clusters of patches: near each other, and facing alike. Of each what is needed to bound and to compute what it sends.
 
-use super::random::Random;
 use crate::patches::Patches;
 use crate::polygon::Polygon;
 use fredholm::operator::hierarchical::{Bounds, Cluster, ClusterTree};
@@ -153,6 +152,8 @@ fn wider(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
 pub(super) struct Clusters {
     pub tree: ClusterTree<6>,
     pub wholes: Vec<Whole>,
+    /// The area of all patches before each place in the order of the tree, and of all, in m².
+    before: Vec<f64>,
 }
 
 impl Clusters {
@@ -182,7 +183,12 @@ impl Clusters {
             };
             wholes[cluster.index()] = Some(whole);
         }
-        Self { tree, wholes: wholes.into_iter().flatten().collect() }
+        let mut before = vec![0.0];
+        before.extend(tree.order().iter().scan(0.0, |sum, patch| {
+            *sum += polygons[*patch].area();
+            Some(*sum)
+        }));
+        Self { tree, wholes: wholes.into_iter().flatten().collect(), before }
     }
 
     pub fn whole(&self, cluster: Cluster) -> &Whole {
@@ -194,14 +200,20 @@ impl Clusters {
         self.tree.children(cluster).is_none().then(|| self.tree.members(cluster)[0])
     }
 
-    /// A patch of a cluster, each as likely as it is large.
-    pub fn any(&self, cluster: Cluster, random: &mut Random) -> usize {
-        let (mut at, mut u) = (cluster, random.next());
-        while let Some([a, b]) = self.tree.children(at) {
-            let part = self.whole(a).area / self.whole(at).area;
-            (at, u) = if u < part { (a, u / part) } else { (b, (u - part) / (1.0 - part)) };
-        }
-        self.tree.members(at)[0]
+    /// The patch of a cluster that is a part `u` of its area in, 0 ≤ u < 1.
+    pub fn at(&self, cluster: Cluster, u: f64) -> usize {
+        let range = self.tree.range(cluster);
+        let (from, to) = (self.before[range.start], self.before[range.end]);
+        let area = from + u * (to - from);
+        // Patches of a cluster are mostly of one size: then it is the first that is tried.
+        let likely = range.start + (u * range.len() as f64) as usize;
+        let place = if self.before[likely] <= area && area < self.before[likely + 1] {
+            likely
+        } else {
+            let within = &self.before[range.start + 1..range.end];
+            range.start + within.partition_point(|before| *before <= area)
+        };
+        self.tree.order()[place]
     }
 
     /// A polygon that all of its patches are in: the patch itself, or a rectangle around those of one plane.

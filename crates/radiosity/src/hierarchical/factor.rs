@@ -147,7 +147,7 @@ impl Factors<'_> {
     /// A point of the patch and one of the sender.
     fn ends(&self, patch: usize, link: &Link, ray: u32) -> [SurfacePoint; 2] {
         let mut random = Random::new(self.seed, patch as u64, link.number << 5 | u64::from(ray));
-        let other = self.clusters.any(link.sender, &mut random);
+        let other = self.clusters.at(link.sender, random.next());
         [patch, other].map(|k| random.point(&self.polygons[k]))
     }
 }
