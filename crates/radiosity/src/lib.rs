@@ -34,7 +34,7 @@
 //! | | [`lights`], [`sky`] | what points, suns and a sky around the scene send to surfaces: f = E + ρ H |
 //! | | [`elements`] | the same on P_k and Q_k: coefficients for each patch |
 //! | 6 | [`solve`](mod@solve) | u = f + ρ ⊙ (F u), by the crate `fredholm`; [`closure`] checks it |
-//! | 2–7 | [`adaptive`] | all of it to an accuracy that is asked for |
+//! | 2–7 | [`adaptive`] | all of it to an accuracy that is asked for; [`linked`] on very many faces |
 //! | | [`view_factors`] | the F_ij of faces for other programs, each with its error |
 //! | 7 | [`reconstruct`] | from patches to the light at any point |
 //! | 8 | [`render`], [`bake`], [`export`] | pictures, light laid around the surfaces, files |
@@ -53,6 +53,7 @@ pub mod form_factor;
 pub mod hierarchical;
 pub mod kernel;
 pub mod lights;
+pub mod linked;
 pub mod patches;
 pub mod polygon;
 pub mod reconstruct;

@@ -1,11 +1,11 @@
 //! How baked light lies on the surfaces: in the texels of an atlas, or at vertices.
 
 use crate::output::Output;
-use crate::radiosity::accuracy::Progress;
+use crate::radiosity::accuracy::{Progress, Solved};
 use crate::radiosity::timing::{Seconds, timed};
 use crate::terminal::bar;
 use anyhow::Result;
-use radiosity::adaptive::{Field, Round};
+use radiosity::adaptive::Round;
 use radiosity::bake::{Atlas, Lightmap, VertexLight};
 use radiosity::export::{write_exr, write_glb, write_vertex_glb};
 use radiosity::polygon::Polygon;
@@ -64,16 +64,22 @@ impl<V: Colour> Light<V> {
     pub fn new(
         atlas: Option<Atlas>,
         (scene, polygons): (&Scene<V>, &[Polygon]),
-        field: Field<'_, V>,
+        field: Solved<'_, V>,
         accuracy: f64,
     ) -> Self {
         if let Some(atlas) = atlas {
             let bar = bar("texels", polygons.len() as u64);
             let field = field.for_points(atlas.size * atlas.size);
-            let lightmap = Lightmap::new(atlas, &field, polygons, &|done| bar.set_position(done as u64));
+            let lightmap = Lightmap::new(atlas, &*field, polygons, &|done| bar.set_position(done as u64));
             bar.finish_and_clear();
             return Self::Texture(lightmap);
         }
+        let field = match field {
+            Solved::Few(field) => *field,
+            Solved::Many(field) => {
+                return Self::Vertices(VertexLight::of_field(scene, field.patches(), &*field));
+            }
+        };
         let accuracy = BETWEEN * accuracy;
         let progress = Progress::new(accuracy);
         let tell = |patches: usize, error: f64| progress.tell(&Round { patches, links: 0, error });

@@ -10,16 +10,14 @@ use self::report::Report;
 use crate::ending::Ending;
 use crate::json::{self, Json};
 use crate::output::{Output, clear_on_interrupt, refuse_twins};
-use crate::radiosity::accuracy::Progress;
+use crate::radiosity::accuracy::Ground;
 use crate::radiosity::outputs::stem;
 use crate::radiosity::timing::{Seconds, timed};
 use crate::terminal::warn;
 use anyhow::{Context, Result};
-use radiosity::adaptive::{Domain, Request, solve};
 use radiosity::bake::Atlas;
 use radiosity::render::Colour;
 use radiosity::scene::{Camera, CleanUp, Scene, SolveOptions, Units, cornell_box, load_in};
-use radiosity::visibility::Visibility;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -68,21 +66,12 @@ fn walk<V: Colour>(
     let atlas =
         (!args.vertex_colours).then(|| timed(&mut seconds.patches, || Atlas::new(&polygons, args.size)));
     let atlas = atlas.transpose()?;
-    let domain = timed(&mut seconds.visibility, || Domain::new(scene, &polygons))?;
-    let progress = Progress::new(accuracy);
-    let request = Request { accuracy, ..Request::default() };
-    let field = timed(&mut seconds.solve, || {
-        solve(&domain, &request, |round| {
-            progress.tell(round);
-            true
-        })
-    });
-    progress.finish();
+    let ground = timed(&mut seconds.visibility, || Ground::new(scene, &polygons))?;
+    let (field, _) = timed(&mut seconds.solve, || ground.solve(accuracy))?;
 
     let bound = field.bound();
     let light = timed(&mut seconds.picture, || Light::new(atlas, (scene, &polygons), field, accuracy));
-    let camera =
-        scene.camera.unwrap_or_else(|| Camera::automatic(&polygons, &Visibility::new(&polygons), 1.0));
+    let camera = scene.camera.unwrap_or_else(|| Camera::automatic(&polygons, &ground.visibility, 1.0));
     let glb = light.write_glb((scene, &camera, units), (accuracy, bound.total()), (glb, &mut seconds))?;
     let mut files = vec![glb];
     if let Some(exr) = exr {

@@ -12,7 +12,8 @@ use crate::form_factor::view::View;
 use crate::kernel::SurfacePoint;
 use crate::lights;
 use crate::polygon::Polygon;
-use crate::reconstruct::{Lamps, Rotation, Site, on_surface};
+use crate::reconstruct::{Lamps, Lit, Rotation, Site, on_surface};
+use crate::scene::Light;
 use fredholm::value::Value;
 use glam::DVec3;
 
@@ -26,10 +27,8 @@ struct Look<'a, V> {
     view: View,
 }
 
-impl<V: Value> Field<'_, V> {
-    /// The radiosity and the irradiance at points of faces as a picture shows them, in W/m²: [`Field::light`], but about the
-    /// smooth normal where a face stands for a piece of a curved surface ([`Polygon::with_normals`]).
-    pub fn seen(&self, points: impl Iterator<Item = (u32, DVec3)>) -> Vec<[V; 2]> {
+impl<V: Value> Lit<V> for Field<'_, V> {
+    fn seen(&self, points: &mut dyn Iterator<Item = (u32, DVec3)>) -> Vec<[V; 2]> {
         let domain = self.domain;
         let mut look = Look { lamps: domain.lamps(), lift: LIFT * domain.extent(), view: View::default() };
         let at = |(face, point): (u32, DVec3)| {
@@ -43,6 +42,12 @@ impl<V: Value> Field<'_, V> {
         points.map(at).collect()
     }
 
+    fn lights(&self) -> &[Light<V>] {
+        self.domain.lights()
+    }
+}
+
+impl<V: Value> Field<'_, V> {
     fn irradiance_on_curve(&self, face: u32, point: DVec3, look: &mut Look<'_, V>) -> V {
         let (domain, flat) = (self.domain, &self.domain.faces()[face as usize]);
         if domain.is_buried(face, point) {

@@ -9,7 +9,6 @@ use super::space::{CHECKS, Space};
 use super::tree::Tree;
 use crate::form_factor::view::View;
 use crate::polygon::Polygon;
-use crate::scene::Light;
 use fredholm::value::Value;
 use glam::DVec3;
 
@@ -75,11 +74,6 @@ impl<V: Value> Field<'_, V> {
             [self.domain.emission(face) + self.domain.reflectance(face) * irradiance, irradiance]
         };
         points.map(at).collect()
-    }
-
-    /// What shines on the faces and is none of them.
-    pub fn lights(&self) -> &[Light<V>] {
-        self.domain.lights()
     }
 
     /// The error of the radiosity, as the residual of the equation tells it.

@@ -2,6 +2,7 @@
 
 use crate::adaptive::Field;
 use crate::polygon::Polygon;
+use crate::reconstruct::Lit;
 use fredholm::value::Value;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -173,7 +174,7 @@ impl<'a, V: Value> Sites<'a, V> {
         let inside =
             |&(face, point): &(u32, DVec3)| (face, point.lerp(faces[face as usize].centroid(), INSIDE));
         let look = |points: &[(u32, DVec3)]| {
-            let light = field.seen(points.iter().map(inside));
+            let light = field.seen(&mut points.iter().map(inside));
             let covered = points.iter().map(inside).map(|(face, point)| field.is_covered(face, point));
             let light = covered.zip(light).map(|(covered, [b, _])| (!covered).then_some(b));
             light.collect::<Vec<_>>()

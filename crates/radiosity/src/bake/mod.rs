@@ -12,8 +12,8 @@ mod vertices;
 pub use atlas::{Atlas, Crowded};
 pub use vertices::{VertexLight, Vertices};
 
-use crate::adaptive::Field;
 use crate::polygon::Polygon;
+use crate::reconstruct::Lit;
 use fredholm::value::Value;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -34,14 +34,14 @@ impl<V: Value> Lightmap<V> {
     /// them are done.
     pub fn new(
         atlas: Atlas,
-        field: &Field<'_, V>,
+        field: &dyn Lit<V>,
         polygons: &[Polygon],
         progress: &(dyn Fn(usize) + Sync),
     ) -> Self {
         let done = AtomicUsize::new(0);
         let light = |(k, polygon): (usize, &Polygon)| {
             let texels = atlas.texels(k, polygon);
-            let light = field.seen(texels.iter().map(|(_, point)| (k as u32, *point)));
+            let light = field.seen(&mut texels.iter().map(|(_, point)| (k as u32, *point)));
             progress(done.fetch_add(1, Ordering::Relaxed) + 1);
             texels.into_iter().zip(light).map(|((texel, _), light)| (texel, light)).collect::<Vec<_>>()
         };

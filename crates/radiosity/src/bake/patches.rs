@@ -1,54 +1,85 @@
-//! B of patches as light at the vertices of triangles: at corners the mean over those patches of one surface in one plane that meet
-//! there, in the middle each patch's own.
+//! B of patches as light at the vertices of triangles: at corners and in the middles, between which it is linear.
 
 use super::vertices::{VertexLight, Vertices};
-use crate::patches::Patches;
-use crate::polygon::Polygon;
+use crate::patches::{Corners, Patches};
+use crate::reconstruct::Lit;
 use crate::scene::Scene;
 use fredholm::value::Value;
 use glam::DVec3;
-use std::collections::HashMap;
-
-/// Corners that are this near, as a part of the scene, are one; normals that differ by no more are of one plane.
-const NEAR: f64 = 1e-5;
-
-/// A corner of one surface in one plane, up to rounding.
-type Corner = (u32, [i64; 3], [i64; 3]);
+use rayon::prelude::*;
 
 impl<V: Value> VertexLight<V> {
     /// Of the radiosity of each patch. `error` is 0: nothing is known of what light is between patches.
     pub fn of_patches(scene: &Scene<V>, patches: &Patches<V>, radiosity: &[V]) -> Self {
-        let vertices = || patches.polygons.iter().flat_map(Polygon::vertices);
-        let low = vertices().fold(DVec3::INFINITY, |low, v| low.min(*v));
-        let unit = NEAR * vertices().fold(0.0, |extent, v| f64::max(extent, (*v - low).max_element()));
-        let corner = |i: usize, vertex: DVec3| -> Corner {
-            let normal = patches.polygons[i].normal().to_array().map(|c| (c / NEAR).round() as i64);
-            (patches.surface[i], normal, ((vertex - low) / unit).to_array().map(|c| c.round() as i64))
+        let corners = Corners::new(patches);
+        let at_corners = corners.means(patches, radiosity);
+        Self { surfaces: surfaces(scene, patches, &corners, (&at_corners, radiosity)), error: 0.0 }
+    }
+
+    /// Of a field, looked at in the corners and the middles of patches, and between some of them.
+    pub fn of_field(scene: &Scene<V>, patches: &Patches<V>, field: &dyn Lit<V>) -> Self {
+        let corners = Corners::new(patches);
+        let faces: Vec<u32> = patches.face_of_each();
+        let looked = |points: &[(u32, DVec3)]| -> Vec<V> {
+            let seen = |points: &[(u32, DVec3)]| field.seen(&mut points.iter().copied());
+            points.par_chunks(LOOK).flat_map_iter(seen).map(|[radiosity, _]| radiosity).collect()
         };
-        let mut sums: HashMap<Corner, (V, f64)> = HashMap::new();
-        for (i, polygon) in patches.polygons.iter().enumerate() {
-            for &vertex in polygon.vertices() {
-                let sum = sums.entry(corner(i, vertex)).or_insert((V::splat(0.0), 0.0));
-                *sum = (sum.0 + radiosity[i], sum.1 + 1.0);
-            }
+        let middle = |i: usize| (faces[i], patches.polygons[i].centroid());
+        let at_middles = looked(&(0..patches.len()).map(middle).collect::<Vec<_>>());
+        let at_corners = looked(&corners.places(patches, &faces));
+
+        let step = patches.len().div_ceil(LOOKS).max(1);
+        let between: Vec<usize> = (0..patches.len()).step_by(step).collect();
+        let point = |i: &usize| {
+            let [s, t] = [0.754_877_666, 0.569_840_291].map(|step| (*i as f64 * step).fract());
+            (faces[*i], patches.polygons[*i].point(s, t))
+        };
+        let points: Vec<(u32, DVec3)> = between.iter().map(point).collect();
+        let square = |value: V| value.channels().iter().map(|c| c * c).sum::<f64>();
+        let (mut off, mut reflected) = (0.0, 0.0);
+        for ((i, (_, point)), light) in between.iter().zip(&points).zip(looked(&points)) {
+            let linear = corners.between(patches, (*i, *point), &at_corners, at_middles[*i]);
+            off += patches.areas[*i] * square(light - linear);
+            reflected += patches.areas[*i] * square(light - patches.emission[*i]);
         }
-        let mut surfaces: Vec<Vertices<V>> = scene.surfaces.iter().map(|_| Vertices::default()).collect();
-        let mut known = HashMap::new();
-        for (i, polygon) in patches.polygons.iter().enumerate() {
+        let error = if reflected > 0.0 { (off / reflected).sqrt() } else { 0.0 };
+        Self { surfaces: surfaces(scene, patches, &corners, (&at_corners, &at_middles)), error }
+    }
+}
+
+/// Points that one thread looks at.
+const LOOK: usize = 1024;
+
+/// Patches between whose corners the field is looked at.
+const LOOKS: usize = 8192;
+
+/// The triangles between corners and middles.
+fn surfaces<V: Value>(
+    scene: &Scene<V>,
+    patches: &Patches<V>,
+    corners: &Corners,
+    (at_corners, at_middles): (&[V], &[V]),
+) -> Vec<Vertices<V>> {
+    let mut surfaces: Vec<Vertices<V>> = scene.surfaces.iter().map(|_| Vertices::default()).collect();
+    let mut known: Vec<Option<u32>> = vec![None; at_corners.len()];
+    for face in 0..patches.faces() {
+        let whole = patches.face(face);
+        for i in patches.on_polygon(face) {
             let surface = &mut surfaces[patches.surface[i] as usize];
+            let polygon = &patches.polygons[i];
             let mut rim = Vec::new();
-            for &vertex in polygon.vertices() {
-                let corner = corner(i, vertex);
-                let (sum, count) = sums[&corner];
-                let add = || surface.add(polygon, vertex, sum * (1.0 / count));
-                rim.push(*known.entry(corner).or_insert_with(add));
+            for (&vertex, &corner) in polygon.vertices().iter().zip(corners.of(patches, i)) {
+                let corner = corner as usize;
+                rim.push(
+                    *known[corner].get_or_insert_with(|| surface.add(whole, vertex, at_corners[corner])),
+                );
             }
-            let middle = surface.add(polygon, polygon.centroid(), radiosity[i]);
+            let middle = surface.add(whole, polygon.centroid(), at_middles[i]);
             let next = |k: usize| rim[(k + 1) % rim.len()];
             surface.triangles.extend((0..rim.len()).map(|k| [rim[k], next(k), middle]));
         }
-        Self { surfaces, error: 0.0 }
     }
+    surfaces
 }
 
 #[cfg(test)]

@@ -8,8 +8,12 @@ use super::kept::Kept;
 use super::{Hierarchical, Statistics};
 use crate::patches::Patches;
 use crate::visibility::Visibility;
+use fredholm::krylov::Gmres;
+use fredholm::operator::Operator;
 use fredholm::operator::hierarchical::Cluster;
-use fredholm::value::Value;
+use fredholm::relax::{Relaxation, Stop, relax};
+use fredholm::system::{System, SystemError};
+use fredholm::value::{Value, max_norm};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -56,6 +60,9 @@ struct Work<'a> {
     /// So many patches of a receiver have links.
     most: usize,
 }
+
+/// The residual of a sketch's solution, and the sweeps for it: brightness need not be known better.
+const SKETCH: (f64, usize) = (1e-3, 20);
 
 /// A scene that reflects more than that in the mean has this ambient term.
 const MOST_REFLECTED: f64 = 0.95;
@@ -152,10 +159,31 @@ impl<'a, V: Value> Plan<'a, V> {
     }
 
     /// The links of one patch of each cluster, which stands for the others: enough to tell how bright these are.
-    pub fn sketch(&self, light: &Light, part: f64, seed: u64) -> Hierarchical {
+    fn sketch(&self, light: &Light, part: f64, seed: u64) -> Hierarchical {
         let work = Work { light, part, seed, most: 1 };
         let built = self.built(&work, vec![None; self.receivers.len()], (|_| (), || false));
         self.gathered(built.into_iter().flatten())
+    }
+
+    /// The light, brightness and all that arrives, by links from one patch of each cluster, found for light that is the same
+    /// everywhere. `lit` is what arrives from what is no patch.
+    pub(crate) fn sketched(
+        &self,
+        source: &[V],
+        lit: &[V],
+        part: f64,
+        seed: u64,
+    ) -> Result<Light, SystemError> {
+        let sketch = self.sketch(&Light::ambient(self.patches, source), part, seed);
+        let system = System::new(source, &self.patches.reflectance, &sketch)?;
+        let mut relaxation = Gmres::new(system);
+        let stop = Stop { residual: SKETCH.0 * max_norm(source), sweeps: SKETCH.1 };
+        relax(&mut relaxation, stop, |_, _, _| true);
+        let u = relaxation.solution();
+        let mut irradiance = vec![V::splat(0.0); u.len()];
+        sketch.apply(&u, &mut irradiance);
+        irradiance.iter_mut().zip(lit).for_each(|(h, lit)| *h += *lit);
+        Ok(Light::of(self.patches, &u, &irradiance))
     }
 
     /// The links that are still missing, unless `stops`, asked from any thread, says that there is no time: then what there is.

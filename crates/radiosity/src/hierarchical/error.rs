@@ -3,6 +3,8 @@
 
 use super::build::{Light, Plan};
 use super::factor::Link;
+use crate::polygon::Polygon;
+use fredholm::operator::hierarchical::Cluster;
 use fredholm::value::Value;
 use rayon::prelude::*;
 
@@ -39,53 +41,54 @@ impl<V: Value> Plan<'_, V> {
         if norm == 0.0 {
             return Judged::default();
         }
-        let residuals = self.residuals(source, u, light, part / FINER);
-        let count = residuals.len().max(1) as f64;
-        let squares = || residuals.iter().map(|r| square(*r));
-        let mean_square = squares().sum::<f64>() / count;
-        // A few patches may have most of the error, and there are more of these than are seen, or fewer: two standard errors more.
-        let spread = squares().map(|s| (s - mean_square).powi(2)).sum::<f64>() / count;
-        let mean_square = mean_square + 2.0 * (spread / count).sqrt();
-        let mean = residuals.iter().fold(V::splat(0.0), |sum, r| sum + *r) * count.recip();
-        // Noise is lost in the next bounce, in which hundreds of links add up; what all have in common is not, and is as large as
-        // it is seen to be, or could be without being seen.
-        let common = square(mean).max(mean_square / count).sqrt();
-        let reflected = areas.iter().zip(rho).map(|(a, rho)| a * rho.magnitude()).sum::<f64>() / total;
-        let carried = common * reflected / (1.0 - reflected).max(f64::EPSILON);
-        let links = (mean_square + carried * carried).sqrt() / norm;
+        let looked: Vec<(Cluster, Polygon)> = self
+            .spread()
+            .into_iter()
+            .map(|leaf| (leaf, self.patches.polygons[self.patch(leaf)].clone()))
+            .collect();
+        let residual = |((leaf, _), arriving): (&(Cluster, Polygon), V)| {
+            let patch = self.patch(*leaf);
+            source[patch] + rho[patch] * arriving - u[patch]
+        };
+        let arriving = self.arriving(u, light, part, &looked);
+        let residuals: Vec<V> = looked.iter().zip(arriving).map(residual).collect();
+        let links = told(&residuals, self.patches.mean_reflectance()) / norm;
         let patches = self.variation(u).sqrt() / norm;
         Judged { error: (links * links + patches * patches).sqrt(), patches, links }
     }
 
-    /// f + ρ F u − u on patches that are spread evenly over the area.
-    fn residuals(&self, source: &[V], u: &[V], light: &Light, part: f64) -> Vec<V> {
+    /// F u on parts of patches, asked anew: with an eighth of what a link may bring, and other rays.
+    pub(crate) fn arriving(&self, u: &[V], light: &Light, part: f64, at: &[(Cluster, Polygon)]) -> Vec<V> {
+        let part = part / FINER;
         let means = self.means(light);
         let radiosity = self.clusters.means(u);
         let (cuts, factors) = (self.cuts(&means, part), self.factors(SEED, true));
-        let looked = self.spread();
-        let residual = |found: &mut Vec<_>, leaf: &_| {
+        let on = |found: &mut Vec<_>, (leaf, polygon): &(Cluster, Polygon)| {
             cuts.of(*leaf, found);
-            let patch = self.clusters.tree.members(*leaf)[0];
             let most = part * cuts.arriving[leaf.index()];
-            let arriving = (0_u64..).zip(found.iter()).fold(V::splat(0.0), |sum, (link, sender)| {
+            (0_u64..).zip(found.iter()).fold(V::splat(0.0), |sum, (number, sender)| {
                 let worth = most / cuts.brightness[sender.index()];
-                let link = Link { sender: *sender, number: link, clear: false, worth };
-                let (factor, _) = factors.factor(patch, &link);
+                let link = Link { sender: *sender, number, clear: false, worth };
+                let (factor, _) = factors.factor_from(self.patch(*leaf), polygon, &link);
                 sum + radiosity[sender.index()] * factor
-            });
-            source[patch] + self.patches.reflectance[patch] * arriving - u[patch]
+            })
         };
-        looked.par_iter().map_init(Vec::new, residual).collect()
+        at.par_iter().map_init(Vec::new, on).collect()
+    }
+
+    /// The patch that a leaf of the tree is.
+    pub(crate) fn patch(&self, leaf: Cluster) -> usize {
+        self.clusters.tree.members(leaf)[0]
     }
 
     /// Leaves of the tree, one for each equal part of the area.
-    fn spread(&self) -> Vec<fredholm::operator::hierarchical::Cluster> {
+    pub(crate) fn spread(&self) -> Vec<Cluster> {
         let areas = &self.patches.areas;
         let total: f64 = areas.iter().sum();
         let step = total / LOOKS as f64;
         let (mut passed, mut next, mut found) = (0.0, 0.5 * step, Vec::new());
         for leaf in self.clusters.tree.leaves() {
-            passed += areas[self.clusters.tree.members(leaf)[0]];
+            passed += areas[self.patch(leaf)];
             while passed > next {
                 found.push(leaf);
                 next += step;
@@ -114,4 +117,21 @@ impl<V: Value> Plan<'_, V> {
         }
         if seen > 0.0 { sum / seen / 6.0 } else { 0.0 }
     }
+}
+
+/// ‖û − u‖ as residuals tell it that were looked at here and there, where so much of all light is reflected.
+pub(crate) fn told<V: Value>(residuals: &[V], reflected: f64) -> f64 {
+    let square = |value: V| value.channels().iter().map(|c| c * c).sum::<f64>();
+    let count = residuals.len().max(1) as f64;
+    let squares = || residuals.iter().map(|r| square(*r));
+    let mean_square = squares().sum::<f64>() / count;
+    // A few patches may have most of the error, and there are more of these than are seen, or fewer: two standard errors more.
+    let spread = squares().map(|s| (s - mean_square).powi(2)).sum::<f64>() / count;
+    let mean_square = mean_square + 2.0 * (spread / count).sqrt();
+    let mean = residuals.iter().fold(V::splat(0.0), |sum, r| sum + *r) * count.recip();
+    // Noise is lost in the next bounce, in which hundreds of links add up; what all have in common is not, and is as large as
+    // it is seen to be, or could be without being seen.
+    let common = square(mean).max(mean_square / count).sqrt();
+    let carried = common * reflected / (1.0 - reflected).max(f64::EPSILON);
+    (mean_square + carried * carried).sqrt()
 }

@@ -52,34 +52,32 @@ impl Factors<'_> {
             || from.zip(hull()).is_some_and(|(a, b)| self.visibility.certainly_clear(a, &b))
     }
 
-    /// The form factor, with the rays cast for it.
+    /// The form factor from a patch, with the rays cast for it.
     pub fn factor(&self, patch: usize, link: &Link) -> (f64, u32) {
+        self.factor_from(patch, &self.polygons[patch], link)
+    }
+
+    /// The form factor from a part of a patch, with the rays cast for it.
+    pub fn factor_from(&self, patch: usize, part: &Polygon, link: &Link) -> (f64, u32) {
+        let to_cluster = |x: DVec3| self.to_cluster(x, part.normal(), link.sender);
         let whole = match self.clusters.patch(link.sender) {
             Some(other) if other == patch => 0.0,
-            Some(other) => self.to_patch(patch, other, link.worth),
+            Some(other) => self.to_patch(part, &self.polygons[other], link.worth),
             None if self.fine => {
-                let polygon = &self.polygons[patch];
-                let sum: f64 = QUARTERS
-                    .iter()
-                    .map(|[s, t]| self.to_cluster(polygon.point(*s, *t), polygon.normal(), link.sender))
-                    .sum();
-                sum / QUARTERS.len() as f64
+                QUARTERS.iter().map(|[s, t]| to_cluster(part.point(*s, *t))).sum::<f64>() / 4.0
             }
-            None => {
-                let polygon = &self.polygons[patch];
-                self.to_cluster(polygon.centroid(), polygon.normal(), link.sender)
-            }
+            None => to_cluster(part.centroid()),
         };
         if whole <= 0.0 || link.clear {
             return (whole.max(0.0), 0);
         }
         // Near patches see each other from where the kernel is large, or do not: rays are weighed by it, and one tells nothing.
-        let near = whole > NEAR_MATTERS * link.worth && self.is_near(patch, link.sender);
+        let near = whole > NEAR_MATTERS * link.worth && self.is_near(part, link.sender);
         let least = if near { LEAST_RAYS } else { 1 };
         let rays = ((whole / link.worth).ceil() as u32).clamp(least, MOST_RAYS);
         let (mut all, mut clear) = (0.0, 0.0);
         for ray in 0..rays {
-            let [x, y] = self.ends(patch, link, ray);
+            let [x, y] = self.ends((patch, part), link, ray);
             let weight = if near { kernel::unoccluded(&x, &y) } else { 1.0 };
             // Infinite where two patches touch: one point of many.
             if weight > 0.0 && weight.is_finite() {
@@ -91,9 +89,9 @@ impl Factors<'_> {
     }
 
     /// Whether a cluster is a patch that is no further than twice the size of the larger of both.
-    fn is_near(&self, patch: usize, sender: Cluster) -> bool {
+    fn is_near(&self, here: &Polygon, sender: Cluster) -> bool {
         let Some(other) = self.clusters.patch(sender) else { return false };
-        let [here, there] = [patch, other].map(|k| &self.polygons[k]);
+        let there = &self.polygons[other];
         let size = here.area().max(there.area()).sqrt();
         here.centroid().distance_squared(there.centroid()) < 4.0 * size * size
     }
@@ -115,8 +113,7 @@ impl Factors<'_> {
         parts(cluster).map_or_else(|| element(cluster), |[a, b]| half(a) + half(b))
     }
 
-    fn to_patch(&self, patch: usize, other: usize, needed: f64) -> f64 {
-        let (here, there) = (&self.polygons[patch], &self.polygons[other]);
+    fn to_patch(&self, here: &Polygon, there: &Polygon, needed: f64) -> f64 {
         let between = there.centroid() - here.centroid();
         let size = (here.area().sqrt()).max(there.area().sqrt());
         let distance = between.length();
@@ -144,11 +141,11 @@ impl Factors<'_> {
         mean / QUARTERS.len() as f64
     }
 
-    /// A point of the patch and one of the sender.
-    fn ends(&self, patch: usize, link: &Link, ray: u32) -> [SurfacePoint; 2] {
+    /// A point of a part of a patch and one of the sender.
+    fn ends(&self, (patch, part): (usize, &Polygon), link: &Link, ray: u32) -> [SurfacePoint; 2] {
         let mut random = Random::new(self.seed, patch as u64, link.number << 5 | u64::from(ray));
         let other = self.clusters.at(link.sender, random.next());
-        [patch, other].map(|k| random.point(&self.polygons[k]))
+        [part, &self.polygons[other]].map(|polygon| random.point(polygon))
     }
 }
 

@@ -18,6 +18,7 @@ mod random;
 
 pub use build::{Light, Plan};
 pub use error::Judged;
+pub(crate) use error::told;
 pub use kept::{Kept, KeptError};
 
 use block::Block;

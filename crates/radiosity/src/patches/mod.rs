@@ -1,7 +1,9 @@
 //! Room 2: the mesh of the domain. Each input polygon is cut into patches P_i on which u is constant (P0).
 
+mod corners;
 mod grid;
 
+pub(crate) use corners::Corners;
 pub(crate) use grid::inverse_bilinear;
 
 use crate::polygon::Polygon;
@@ -139,6 +141,13 @@ impl<V: Value> Patches<V> {
         self.polygons.len()
     }
 
+    /// The mean of the reflectance by area, of the channel that reflects most at each.
+    pub(crate) fn mean_reflectance(&self) -> f64 {
+        let total: f64 = self.areas.iter().sum();
+        self.areas.iter().zip(&self.reflectance).map(|(area, rho)| area * rho.magnitude()).sum::<f64>()
+            / total
+    }
+
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.polygons.is_empty()
@@ -157,9 +166,24 @@ impl<V: Value> Patches<V> {
 
     /// The unit normal of input polygon number `polygon`, on its front.
     pub fn normal_of(&self, polygon: u32) -> DVec3 {
+        self.face(polygon).normal()
+    }
+
+    /// Input polygon number `polygon`.
+    pub(crate) fn face(&self, polygon: u32) -> &Polygon {
         match &self.cuts[polygon as usize] {
-            Cut::Grid(Grid { whole, .. }) | Cut::Parts(_, whole) => whole.normal(),
+            Cut::Grid(Grid { whole, .. }) | Cut::Parts(_, whole) => whole,
         }
+    }
+
+    /// How many input polygons there are.
+    pub(crate) fn faces(&self) -> u32 {
+        self.cuts.len() as u32
+    }
+
+    /// The number of the input polygon that each patch lies on.
+    pub(crate) fn face_of_each(&self) -> Vec<u32> {
+        (0..self.faces()).flat_map(|face| self.on_polygon(face).map(move |_| face)).collect()
     }
 
     /// Which patches lie on input polygon number `polygon`.

@@ -9,6 +9,7 @@ use crate::visibility::Visibility;
 use fredholm::value::Value;
 
 /// The polygons that emit, each whole.
+#[derive(Clone)]
 pub struct Lamps<'a, V> {
     lamps: Vec<(&'a Polygon, V)>,
     visibility: &'a Visibility,

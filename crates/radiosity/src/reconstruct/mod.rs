@@ -19,7 +19,18 @@ pub use gather::{Gather, Gathered};
 pub use lattice::Rotation;
 pub(crate) use lattice::lattice;
 
+use crate::scene::Light;
 use glam::DVec3;
+
+/// A solved field that knows the light at any point of any face, as a picture shows it.
+pub trait Lit<V>: Sync {
+    /// The radiosity and the irradiance at points of faces, in W/m²; about the smooth normal where a face stands for a piece of a
+    /// curved surface ([`Polygon::with_normals`](crate::polygon::Polygon::with_normals)).
+    fn seen(&self, points: &mut dyn Iterator<Item = (u32, DVec3)>) -> Vec<[V; 2]>;
+
+    /// What shines on the faces and is none of them.
+    fn lights(&self) -> &[Light<V>];
+}
 
 /// A point of a surface from which light is looked for.
 #[derive(Clone, Copy, Debug, PartialEq)]

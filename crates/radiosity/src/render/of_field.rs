@@ -1,8 +1,8 @@
 //! The picture of a light that is known at every point: one look at each thing that a pixel shows, curved surfaces as such.
 
-use crate::adaptive::Field;
 use crate::lights;
 use crate::polygon::Polygon;
+use crate::reconstruct::Lit;
 use crate::render::colour::Colour;
 use crate::render::fragments::{Fragment, Fragments};
 use crate::render::picture::Picture;
@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use std::f64::consts::FRAC_1_PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// What each pixel of a view shows, and the light that a [`Field`] has there.
+/// What each pixel of a view shows, and the light that a field has there.
 pub struct Sightings<V> {
     fragments: Fragments,
     /// The radiosity and the irradiance of each, in W/m².
@@ -27,7 +27,7 @@ impl<V: Colour> Sightings<V> {
     /// is told how many rows are lit.
     pub fn new(
         view: &View,
-        field: &Field<'_, V>,
+        field: &dyn Lit<V>,
         polygons: &[Polygon],
         visibility: &Visibility,
         progress: &(dyn Fn(usize) + Sync),
@@ -39,7 +39,7 @@ impl<V: Colour> Sightings<V> {
         let row = |y: usize| {
             let first = fragments.of_pixel(y * view.width).start;
             let end = fragments.of_pixel((y + 1) * view.width - 1).end;
-            let light = field.seen(fragments.all[first..end].iter().map(|f| (f.shown, f.point)));
+            let light = field.seen(&mut fragments.all[first..end].iter().map(|f| (f.shown, f.point)));
             progress(done.fetch_add(1, Ordering::Relaxed) + 1);
             light
         };

@@ -2,11 +2,10 @@
 
 use super::{Observer, Run, SAMPLED_ROWS, Solution, SolveError, spread};
 use crate::hierarchical::{Judged, Kept, Light, Plan, Statistics};
-use fredholm::krylov::Gmres;
 use fredholm::operator::Operator;
-use fredholm::relax::{Outcome, Relaxation, Stop, relax};
+use fredholm::relax::Outcome;
 use fredholm::system::System;
-use fredholm::value::{Value, max_norm};
+use fredholm::value::Value;
 use std::time::Instant;
 
 /// What is told of links beside a [`Solution`].
@@ -26,9 +25,6 @@ const PART: f64 = 100.0;
 
 /// Links bring no more than that, however large the error may be.
 const MOST: f64 = 0.3;
-
-/// The residual of a sketch's solution, and the sweeps for it: brightness need not be known better.
-const SKETCH: (f64, usize) = (1e-3, 20);
 
 /// Seeds of the rays.
 const SEEDS: [u64; 2] = [1, 2];
@@ -90,14 +86,6 @@ impl<V: Value> Run<'_, V> {
         let ambient = Light::ambient(self.patches, self.source);
         // For light that is the same everywhere there are about as many as for the true one: too many are told at once.
         self.check_links(plan.bytes(&ambient, part))?;
-        let sketch = plan.sketch(&ambient, part, SEEDS[0]);
-        let system = System::new(self.source, self.reflectance, &sketch)?;
-        let mut relaxation = Gmres::new(system);
-        let stop = Stop { residual: SKETCH.0 * max_norm(self.source), sweeps: SKETCH.1 };
-        relax(&mut relaxation, stop, |_, _, _| true);
-        let u = relaxation.solution();
-        let mut irradiance = vec![V::splat(0.0); u.len()];
-        sketch.apply(&u, &mut irradiance);
-        Ok(Light::of(self.patches, &u, &irradiance))
+        Ok(plan.sketched(self.source, self.lit, part, SEEDS[0])?)
     }
 }

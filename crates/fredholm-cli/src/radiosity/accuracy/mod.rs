@@ -1,7 +1,10 @@
 //! `--accuracy`: the walk of a scene to an accuracy. Mesh, form factors and iterations are found on the way.
 
 mod report;
+mod solved;
 mod table;
+
+pub use self::solved::{Ground, Parts, Solved};
 
 use self::report::Report;
 use super::args::{Quantity, Radiosity};
@@ -13,12 +16,10 @@ use crate::ending::Ending;
 use crate::json::{self, Json};
 use crate::terminal::bar;
 use anyhow::Result;
-use fredholm::value::Value;
 use image::RgbImage;
 use indicatif::ProgressBar;
-use radiosity::adaptive::{Domain, Field, Request, Round, solve};
+use radiosity::adaptive::Round;
 use radiosity::export;
-use radiosity::patches::Patches;
 use radiosity::polygon::Polygon;
 use radiosity::render::{Colour, Exposure, Scale, Sightings, false_colour, map_of_values};
 use radiosity::scene::{CleanUp, Scene, Units};
@@ -39,23 +40,15 @@ pub fn walk<V: Colour>(
     let Outputs { picture, patches: list, json, .. } = Outputs::prepare(args, &scene.name)?;
 
     let polygons = scene.polygons();
-    let domain = timed(&mut seconds.visibility, || Domain::new(scene, &polygons))?;
-    let request = Request { accuracy, ..Request::default() };
-    let mut rounds = Vec::new();
-    let progress = Progress::new(accuracy);
-    let field = timed(&mut seconds.solve, || {
-        solve(&domain, &request, |round| {
-            progress.tell(round);
-            rounds.push(*round);
-            true
-        })
-    });
-    progress.finish();
+    let ground = timed(&mut seconds.visibility, || Ground::new(scene, &polygons))?;
+    let (solved, rounds) = timed(&mut seconds.solve, || ground.solve(accuracy))?;
 
-    let (parts, bound) = (Parts::new(scene, &field), field.bound());
+    let (parts, bound, elements) = (solved.parts(scene), solved.bound(), solved.elements());
     let mut files = Vec::new();
     if let Some(output) = picture {
-        let image = timed(&mut seconds.picture, || draw(args, scene, units, (field, &polygons), &parts));
+        let image = timed(&mut seconds.picture, || {
+            draw(args, scene, units, (solved, &polygons, &ground.visibility), &parts)
+        });
         files.push(timed(&mut seconds.write, || write_png(output, &image))?);
     }
     if let Some(output) = list {
@@ -66,7 +59,7 @@ pub fn walk<V: Colour>(
     files.extend(json.as_ref().and_then(Json::file));
     seconds.total = start.elapsed().as_secs_f64();
     let means = surfaces(scene, &parts.patches, units, (&parts.radiosity, &parts.irradiance));
-    let mut report = Report::new(scene, accuracy, &rounds, bound, (units, means), seconds, files);
+    let mut report = Report::new(scene, accuracy, (&rounds, elements), bound, (units, means), seconds, files);
     report.clean_up = clean_up;
     json::tell(json, &report, &table::table(&report))?;
     Ok(if report.is_met() { Ending::Converged } else { Ending::NotConverged })
@@ -101,40 +94,19 @@ impl Progress {
     }
 }
 
-/// The mesh of the answer, with means over its parts.
-struct Parts<V> {
-    patches: Patches<V>,
-    radiosity: Vec<V>,
-    irradiance: Vec<V>,
-}
-
-impl<V: Value> Parts<V> {
-    fn new(scene: &Scene<V>, field: &Field<'_, V>) -> Self {
-        let parts = field.parts();
-        let by_face = parts.chunk_by(|a, b| a.face == b.face);
-        let polygons = by_face.map(|parts| parts.iter().map(|part| part.polygon.clone()).collect());
-        Self {
-            patches: Patches::from_parts(scene, polygons),
-            radiosity: parts.iter().map(|part| part.radiosity).collect(),
-            irradiance: parts.iter().map(|part| part.irradiance).collect(),
-        }
-    }
-}
-
 /// The final picture, as a photograph or as a map of numbers, from the light at every pixel.
 fn draw<V: Colour>(
     args: &Radiosity,
     scene: &Scene<V>,
     units: Units,
-    (field, polygons): (Field<'_, V>, &[Polygon]),
+    (solved, polygons, visibility): (Solved<'_, V>, &[Polygon], &Visibility),
     parts: &Parts<V>,
 ) -> RgbImage {
-    let visibility = Visibility::new(polygons);
-    let view = view_of(args, scene, polygons, &visibility);
+    let view = view_of(args, scene, polygons, visibility);
     let bar = bar("picture", view.height as u64);
     let row = |done: usize| bar.set_position(done as u64);
-    let field = field.for_points(view.width * view.height);
-    let sightings = Sightings::new(&view, &field, polygons, &visibility, &row);
+    let field = solved.for_points(view.width * view.height);
+    let sightings = Sightings::new(&view, &*field, polygons, visibility, &row);
     bar.finish_and_clear();
     let size = (view.width, view.height);
     let map = |values: &[V], number: &dyn Fn(V, V) -> f64, title: &str| {

@@ -28,6 +28,9 @@ pub struct Report {
     pub form_factor_error: f64,
     /// Of the iteration.
     pub iteration_error: f64,
+    /// What light is on a patch, for the table.
+    #[serde(skip)]
+    pub elements: &'static str,
     /// Patches of the last mesh.
     pub patches: usize,
     /// Form factors of the last mesh.
@@ -71,7 +74,7 @@ impl Report {
     pub fn new<V: Value>(
         scene: &Scene<V>,
         accuracy: f64,
-        rounds: &[Round],
+        (rounds, elements): (&[Round], &'static str),
         bound: Bound,
         (units, surfaces): (Units, Vec<Surface>),
         seconds: Seconds,
@@ -90,6 +93,7 @@ impl Report {
             discretisation_error: bound.discretisation,
             form_factor_error: bound.form_factors,
             iteration_error: bound.iteration,
+            elements,
             patches,
             form_factors,
             rounds,

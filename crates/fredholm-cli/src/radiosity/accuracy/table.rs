@@ -34,7 +34,8 @@ fn mesh(report: &Report) -> String {
     let (patches, factors) = (grouped(report.patches as u64), grouped(report.form_factors as u64));
     let rounds = report.rounds.len();
     format!(
-        "{patches} patches of degree 2 with {factors} form factors, after {rounds} round{}",
+        "{patches} {} {factors} form factors, after {rounds} round{}",
+        report.elements,
         if rounds == 1 { "" } else { "s" }
     )
 }
