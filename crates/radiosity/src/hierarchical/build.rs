@@ -79,14 +79,21 @@ pub struct Plan<'a, V> {
     pub(super) visibility: &'a Visibility,
     pub(super) clusters: Arc<Clusters>,
     receivers: Vec<Cluster>,
+    shaped: bool,
 }
 
 impl<'a, V: Value> Plan<'a, V> {
     /// For these patches, which `visibility` is of.
     pub fn new(patches: &'a Patches<V>, visibility: &'a Visibility) -> Self {
-        let clusters = Clusters::new(patches);
+        let clusters = Clusters::new(patches, visibility);
         let receivers = clusters.up_to(TOGETHER);
-        Self { patches, visibility, clusters: Arc::new(clusters), receivers }
+        Self { patches, visibility, clusters: Arc::new(clusters), receivers, shaped: false }
+    }
+
+    /// With links that know how bright the parts of a cluster are beside the whole, and send more of what is near and bright: better for
+    /// light such as was known before, but no longer form factors, that add up to 1 and are reciprocal.
+    pub(crate) fn shaped(self) -> Self {
+        Self { shaped: true, ..self }
     }
 
     /// About how many bytes the links will take, where one may bring a `part` of what arrives.
@@ -135,13 +142,19 @@ impl<'a, V: Value> Plan<'a, V> {
         }
     }
 
-    pub(super) fn factors(&self, seed: u64, fine: bool) -> Factors<'_> {
+    pub(super) fn factors<'b>(
+        &'b self,
+        [_, brightness, _]: &'b [Vec<f64>; 3],
+        seed: u64,
+        fine: bool,
+    ) -> Factors<'b> {
         Factors {
             clusters: &self.clusters,
             polygons: &self.patches.polygons,
             visibility: self.visibility,
             seed,
             fine,
+            shape: self.shaped.then_some(brightness),
         }
     }
 
@@ -219,7 +232,7 @@ impl<'a, V: Value> Plan<'a, V> {
         (progress, stops): (impl Fn(usize) + Sync, impl Fn() -> bool + Sync),
     ) -> Vec<Option<(Block, u64)>> {
         let means = self.means(work.light);
-        let (cuts, factors) = (self.cuts(&means, work.part), self.factors(work.seed, false));
+        let (cuts, factors) = (self.cuts(&means, work.part), self.factors(&means, work.seed, false));
         let build = |found: &mut Vec<Cluster>, (known, receiver): (Option<(Block, u64)>, &Cluster)| {
             if known.is_some() || stops() {
                 return known;
@@ -285,7 +298,6 @@ impl<'a, V: Value> Plan<'a, V> {
             ),
             clusters: Arc::clone(&self.clusters),
             blocks,
-            areas: self.patches.areas.clone(),
             order_of,
             statistics,
         }

@@ -2,9 +2,11 @@
 
 use crate::patches::Patches;
 use crate::polygon::Polygon;
+use crate::visibility::Visibility;
 use fredholm::operator::hierarchical::{Bounds, Cluster, ClusterTree};
 use fredholm::value::Value;
 use glam::DVec3;
+use rayon::prelude::*;
 use std::borrow::Cow;
 
 /// How far apart two normals are that are opposite, as a part of the scene's extent: patches of two walls of a room that meet
@@ -29,14 +31,15 @@ pub(super) struct Whole {
 }
 
 impl Whole {
-    fn of_patch(polygon: &Polygon) -> Self {
+    /// Of a patch that counts for an area.
+    fn of_patch(polygon: &Polygon, area: f64) -> Self {
         let corners = polygon.vertices().iter();
         let (low, high) = corners
             .fold((DVec3::MAX, DVec3::MIN), |(low, high): (DVec3, DVec3), v| (low.min(*v), high.max(*v)));
         Self {
             centre: polygon.centroid(),
-            front: polygon.normal() * polygon.area(),
-            area: polygon.area(),
+            front: polygon.normal() * area,
+            area,
             middle: 0.5 * (low + high),
             half: 0.5 * (high - low),
             axis: polygon.normal(),
@@ -140,6 +143,9 @@ impl Whole {
     }
 }
 
+/// The part of its area that a patch counts for of which nothing is seen.
+const BURIED: f64 = 1e-9;
+
 /// Cosines below that are of patches in one plane, but for rounding.
 const FLAT: f64 = 1e-9;
 
@@ -152,15 +158,22 @@ fn wider(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
 pub(super) struct Clusters {
     pub tree: ClusterTree<6>,
     pub wholes: Vec<Whole>,
+    /// What each patch counts for, in m²: next to nothing where all of it is under something that stands there. Nobody sees that, and
+    /// its darkness is no part of the mean of what is seen.
+    pub areas: Vec<f64>,
     /// The area of all patches before each place in the order of the tree, and of all, in m².
     before: Vec<f64>,
 }
 
 impl Clusters {
     /// Of patches that have areas and finite corners.
-    pub fn new<V: Value>(patches: &Patches<V>) -> Self {
+    pub fn new<V: Value>(patches: &Patches<V>, visibility: &Visibility) -> Self {
         let polygons = &patches.polygons;
-        let all = polygons.iter().map(Whole::of_patch).reduce(|a, b| Whole::union(&a, &b));
+        let counted =
+            |polygon: &Polygon| polygon.area() * if visibility.exposed(polygon) > 0.0 { 1.0 } else { BURIED };
+        let areas: Vec<f64> = polygons.par_iter().map(counted).collect();
+        let all = polygons.iter().zip(&areas).map(|(patch, area)| Whole::of_patch(patch, *area));
+        let all = all.reduce(|a, b| Whole::union(&a, &b));
         let turn = all.map_or(0.0, |all| TURN * 2.0 * all.half.max_element());
         let boxes: Vec<Bounds<6>> = polygons
             .iter()
@@ -175,7 +188,10 @@ impl Clusters {
         let mut wholes: Vec<Option<Whole>> = vec![None; tree.len()];
         for cluster in tree.bottom_up() {
             let whole = match tree.children(cluster) {
-                None => Whole::of_patch(&polygons[tree.members(cluster)[0]]),
+                None => {
+                    let patch = tree.members(cluster)[0];
+                    Whole::of_patch(&polygons[patch], areas[patch])
+                }
                 Some(parts) => {
                     let [a, b] = parts.map(|part| wholes[part.index()].as_ref());
                     a.zip(b).map_or_else(|| unreachable!("children come first"), |(a, b)| Whole::union(a, b))
@@ -185,10 +201,10 @@ impl Clusters {
         }
         let mut before = vec![0.0];
         before.extend(tree.order().iter().scan(0.0, |sum, patch| {
-            *sum += polygons[*patch].area();
+            *sum += areas[*patch];
             Some(*sum)
         }));
-        Self { tree, wholes: wholes.into_iter().flatten().collect(), before }
+        Self { tree, wholes: wholes.into_iter().flatten().collect(), areas, before }
     }
 
     pub fn whole(&self, cluster: Cluster) -> &Whole {

@@ -38,7 +38,10 @@ const ALIKE: f64 = 0.9;
 const WRONG: f64 = 0.02;
 
 /// Rays that tell how much of a cluster is seen whose middle is not.
-const PROBES: u64 = 16;
+const PROBES: u64 = 64;
+
+/// How many of these would be expected to arrive if it were as much as counts.
+const SURE: f64 = 4.0;
 
 /// Another seed than that of any links.
 const SEED: u64 = 0xc075;
@@ -87,7 +90,7 @@ impl Cuts<'_> {
 
     /// Whether more than a part of what a cluster sends to another seems to arrive: a ray does, of as many as would be expected to.
     fn is_seen(&self, receiver: Cluster, sender: Cluster, part: f64) -> bool {
-        let rays = part.recip().ceil() as u64;
+        let rays = (SURE * part.recip()).ceil() as u64;
         let ends = [receiver, sender].map(|cluster| self.clusters.tree.members(cluster));
         let mut random = Random::new(SEED, receiver.index() as u64, sender.index() as u64);
         rays > PROBES

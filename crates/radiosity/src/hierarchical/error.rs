@@ -62,7 +62,7 @@ impl<V: Value> Plan<'_, V> {
         let part = part / FINER;
         let means = self.means(light);
         let radiosity = self.clusters.means(u);
-        let (cuts, factors) = (self.cuts(&means, part), self.factors(SEED, true));
+        let (cuts, factors) = (self.cuts(&means, part), self.factors(&means, SEED, true));
         let on = |found: &mut Vec<_>, (leaf, polygon): &(Cluster, Polygon)| {
             cuts.of(*leaf, found);
             let most = part * cuts.arriving[leaf.index()];

@@ -20,6 +20,8 @@ pub(super) struct Factors<'a> {
     /// Whether to take the mean over four points of a patch, in place of its middle, of what comes from clusters, and from patches
     /// that are three times as far away.
     pub fine: bool,
+    /// How bright each cluster is, if its parts count by that.
+    pub shape: Option<&'a [f64]>,
 }
 
 /// Where the patches of a receiver gather from.
@@ -43,6 +45,9 @@ const NEAR: f64 = 0.6;
 const MOST_RAYS: u32 = 16;
 const LEAST_RAYS: u32 = 8;
 const NEAR_MATTERS: f64 = 0.25;
+
+/// How often a ray is drawn anew that would leave or arrive at a back.
+const TRIES: usize = 4;
 
 impl Factors<'_> {
     /// Whether it is proved that nothing is between a polygon and a cluster.
@@ -77,10 +82,15 @@ impl Factors<'_> {
         let rays = ((whole / link.worth).ceil() as u32).clamp(least, MOST_RAYS);
         let (mut all, mut clear) = (0.0, 0.0);
         for ray in 0..rays {
-            let [x, y] = self.ends((patch, part), link, ray);
-            let weight = if near { kernel::unoccluded(&x, &y) } else { 1.0 };
-            // Infinite where two patches touch: one point of many.
-            if weight > 0.0 && weight.is_finite() {
+            let mut random = Random::new(self.seed, patch as u64, link.number << 5 | u64::from(ray));
+            let mut tries = (0..TRIES).map(|_| {
+                let ends = self.ends(part, link, &mut random);
+                (ends, kernel::unoccluded(&ends[0], &ends[1]))
+            });
+            // Of a cluster, or beyond a horizon, not all faces the patch: what turns its back has no part in the formula either. The
+            // kernel is infinite where two patches touch: one point of many.
+            if let Some(([x, y], kernel)) = tries.find(|(_, kernel)| *kernel > 0.0 && kernel.is_finite()) {
+                let weight = if near { kernel } else { 1.0 };
                 all += weight;
                 clear += if self.visibility.unoccluded(x.position, y.position) { weight } else { 0.0 };
             }
@@ -96,14 +106,16 @@ impl Factors<'_> {
         here.centroid().distance_squared(there.centroid()) < 4.0 * size * size
     }
 
-    /// From a point to four parts of a cluster, each as one element of area.
+    /// From a point to four parts of a cluster, each as one element of area, and as bright as it is beside the whole.
     fn to_cluster(&self, x: DVec3, n: DVec3, cluster: Cluster) -> f64 {
+        let beside = |part: Cluster| self.shape.map_or(1.0, |b| b[part.index()] / b[cluster.index()]);
         let element = |cluster: Cluster| {
             let whole = self.clusters.whole(cluster);
             let between = whole.centre - x;
             let square = between.length_squared();
             let (leaves, arrives) = (between.dot(n), -between.dot(whole.front));
-            if leaves <= 0.0 || arrives <= 0.0 { 0.0 } else { leaves * arrives / (PI * square * square) }
+            let facing = leaves > 0.0 && arrives > 0.0;
+            if facing { beside(cluster) * leaves * arrives / (PI * square * square) } else { 0.0 }
         };
         let parts = |cluster: Cluster| self.clusters.tree.children(cluster);
         let half = |cluster: Cluster| match parts(cluster) {
@@ -142,8 +154,7 @@ impl Factors<'_> {
     }
 
     /// A point of a part of a patch and one of the sender.
-    fn ends(&self, (patch, part): (usize, &Polygon), link: &Link, ray: u32) -> [SurfacePoint; 2] {
-        let mut random = Random::new(self.seed, patch as u64, link.number << 5 | u64::from(ray));
+    fn ends(&self, part: &Polygon, link: &Link, random: &mut Random) -> [SurfacePoint; 2] {
         let other = self.clusters.at(link.sender, random.next());
         [part, &self.polygons[other]].map(|polygon| random.point(polygon))
     }

@@ -30,7 +30,7 @@ impl Hierarchical {
     fn spread(&self, sender: Cluster, factor: f64, row: &mut [f64]) {
         let density = factor / self.clusters.whole(sender).area;
         for &patch in self.clusters.tree.members(sender) {
-            row[patch] = density * self.areas[patch];
+            row[patch] = density * self.clusters.areas[patch];
         }
     }
 
@@ -62,7 +62,7 @@ impl Hierarchical {
                 Some(halves) => halves.iter().for_each(|half| densities[half.index()] = density),
                 None => {
                     let patch = self.clusters.tree.members(cluster)[0];
-                    out[patch] = density * self.areas[patch];
+                    out[patch] = density * self.clusters.areas[patch];
                 }
             }
         }
@@ -72,7 +72,7 @@ impl Hierarchical {
 impl Rows for Hierarchical {
     fn row<'a>(&'a self, i: usize, buffer: &'a mut Vec<f64>) -> Line<'a> {
         buffer.clear();
-        buffer.resize(self.areas.len(), 0.0);
+        buffer.resize(self.places.len(), 0.0);
         let (block, place) = self.places[i];
         for (sender, column) in self.blocks[block as usize].columns() {
             self.spread(sender, f64::from(column[place as usize]), buffer);
@@ -88,14 +88,14 @@ impl Rows for Hierarchical {
 impl Columns for Hierarchical {
     fn column<'a>(&'a self, j: usize, buffer: &'a mut Vec<f64>) -> Line<'a> {
         buffer.clear();
-        buffer.resize(self.areas.len(), 0.0);
+        buffer.resize(self.places.len(), 0.0);
         let place = self.order_of[j] as usize;
         for block in &self.blocks {
             let Some((sender, column)) = block.column_with(|sender| self.clusters.tree.range(sender), place)
             else {
                 continue;
             };
-            let part = self.areas[j] / self.clusters.whole(sender).area;
+            let part = self.clusters.areas[j] / self.clusters.whole(sender).area;
             for (factor, patch) in column.iter().zip(self.clusters.tree.members(block.receiver())) {
                 buffer[*patch] = part * f64::from(*factor);
             }

@@ -33,8 +33,6 @@ use std::sync::Arc;
 pub struct Hierarchical {
     clusters: Arc<Clusters>,
     blocks: Vec<Block>,
-    /// Of each patch, in m².
-    areas: Vec<f64>,
     /// The block that each patch receives in, and its place there.
     places: Vec<(u32, u32)>,
     /// The place of each patch in the order of the tree.
@@ -84,7 +82,7 @@ impl Hierarchical {
 
 impl Matrix for Hierarchical {
     fn dim(&self) -> usize {
-        self.areas.len()
+        self.places.len()
     }
 
     /// A planar patch does not see itself.

@@ -74,4 +74,9 @@ impl<'a, V: Value> Direct<'a, V> {
         let emits = self.lamps.is_none();
         all.map(|((e, rho), d)| *rho * *d + if emits { *e } else { V::splat(0.0) }).collect()
     }
+
+    /// Whether a point of a face is within a body that stands there.
+    pub fn is_buried(&self, face: u32, point: DVec3) -> bool {
+        self.visibility.is_buried(point, self.faces[face as usize].normal())
+    }
 }

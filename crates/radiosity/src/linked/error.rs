@@ -50,7 +50,7 @@ impl Error {
         let at = arriving(&leaves.iter().map(whole).collect::<Vec<_>>());
         let of_links = |(leaf, arriving): (&Cluster, V)| {
             let patch = plan.patch(*leaf);
-            patches.reflectance[patch] * (arriving - field.at_middles[patch])
+            patches.reflectance[patch] * (arriving - field.arriving[patch])
         };
         let links: Vec<V> = leaves.iter().zip(at).map(of_links).collect();
 
@@ -60,9 +60,12 @@ impl Error {
         let of_all = |(k, ((leaf, small), arriving)): (usize, (&(Cluster, Polygon), V))| {
             let patch = plan.patch(*leaf);
             let (face, x) = (faces[patch], small.centroid());
-            let direct = |seed: usize| field.direct.at(face, x, Rotation::of(seed + k));
-            let anew = direct(0) + arriving;
-            patches.reflectance[patch] * (anew - direct(faces.len()) - field.between(face, x))
+            let anew = if field.direct.is_buried(face, x) {
+                V::splat(0.0)
+            } else {
+                field.direct.at(face, x, Rotation::of(k)) + arriving
+            };
+            patches.reflectance[patch] * (anew - field.irradiance_at(face, x, Rotation::of(faces.len() + k)))
         };
         let all: Vec<V> = points.iter().zip(at).enumerate().map(of_all).collect();
 

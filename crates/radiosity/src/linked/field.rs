@@ -2,6 +2,7 @@
 
 use super::direct::Direct;
 use super::error::Error;
+use super::inverse;
 use crate::adaptive::Bound;
 use crate::patches::{Corners, Patches};
 use crate::reconstruct::{Lit, Rotation};
@@ -16,9 +17,11 @@ pub struct Field<'a, V> {
     /// The radiosity û and the irradiance D + H of each patch, in W/m².
     radiosity: Vec<V>,
     irradiance: Vec<V>,
-    /// H of each patch, and at the corners, in W/m².
-    pub(super) at_middles: Vec<V>,
+    /// H in the middle of each patch, a mean over what of it is not buried, and at the corners, in W/m².
+    at_middles: Vec<V>,
     at_corners: Vec<V>,
+    /// The mean of H over each patch, in W/m².
+    pub(super) arriving: Vec<V>,
     corners: Corners,
     links: usize,
     pub(super) error: Error,
@@ -27,21 +30,23 @@ pub struct Field<'a, V> {
 impl<'a, V: Value> Field<'a, V> {
     pub(super) fn new(
         direct: Direct<'a, V>,
-        patches: &Patches<V>,
-        (lit, arriving): (Vec<V>, Vec<V>),
+        patches: Patches<V>,
+        (lit, arriving, exposed): (Vec<V>, Vec<V>, &[f64]),
         links: usize,
     ) -> Self {
-        let corners = Corners::new(patches);
+        let corners = Corners::new(&patches);
         let irradiance: Vec<V> = lit.into_iter().zip(&arriving).map(|(d, h)| d + *h).collect();
         let all = patches.emission.iter().zip(&patches.reflectance).zip(&irradiance);
+        let at_middles: Vec<V> = arriving.iter().zip(exposed).map(|(h, part)| *h * inverse(*part)).collect();
         Self {
             direct,
             radiosity: all.map(|((e, rho), h)| *e + *rho * *h).collect(),
             irradiance,
-            at_corners: corners.means(patches, &arriving),
-            at_middles: arriving,
+            at_corners: corners.means(&patches, &at_middles, exposed),
+            at_middles,
+            arriving,
             corners,
-            patches: patches.clone(),
+            patches,
             links,
             error: Error::default(),
         }
@@ -73,8 +78,16 @@ impl<'a, V: Value> Field<'a, V> {
         Bound { discretisation: mesh, form_factors: links, iteration }
     }
 
+    /// D + H at a point of a face, with rays of a rotation.
+    pub(super) fn irradiance_at(&self, face: u32, point: DVec3, rotation: Rotation) -> V {
+        if self.direct.is_buried(face, point) {
+            return V::splat(0.0);
+        }
+        self.direct.at(face, point, rotation) + self.between(face, point)
+    }
+
     /// H at a point of a face.
-    pub(super) fn between(&self, face: u32, point: DVec3) -> V {
+    fn between(&self, face: u32, point: DVec3) -> V {
         let patch = self.patches.patch_at(face, point);
         self.corners.between(&self.patches, (patch, point), &self.at_corners, self.at_middles[patch])
     }
@@ -85,7 +98,7 @@ impl<V: Value> Lit<V> for Field<'_, V> {
         let at = |(face, point): (u32, DVec3)| {
             let bits = point.to_array().iter().fold(0, |bits, c| bits ^ c.to_bits() as usize);
             let patch = self.patches.patch_at(face, point);
-            let irradiance = self.direct.at(face, point, Rotation::of(bits)) + self.between(face, point);
+            let irradiance = self.irradiance_at(face, point, Rotation::of(bits));
             [self.patches.emission[patch] + self.patches.reflectance[patch] * irradiance, irradiance]
         };
         points.map(at).collect()

@@ -25,6 +25,7 @@ use fredholm::operator::Operator;
 use fredholm::relax::{Relaxation, Stop, relax};
 use fredholm::system::{System, SystemError};
 use fredholm::value::{Value, max_norm};
+use rayon::prelude::*;
 
 /// What is asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -144,25 +145,35 @@ fn solved<'a, V: Value>(
     request: &Request,
 ) -> Result<Field<'a, V>, LinkedError> {
     let patches = Patches::new(scene, size_for_count(scene, count))?;
+    let exposed: Vec<f64> =
+        patches.polygons.par_iter().map(|patch| direct.visibility.exposed(patch)).collect();
     let lit = direct.means(&patches);
-    let source = direct.source(&patches, &lit);
-    let plan = Plan::new(&patches, direct.visibility);
+    // Of a patch that something stands on the rest has more of the light, and sends all of it.
+    let mut open = patches.clone();
+    open.reflectance.iter_mut().zip(&exposed).for_each(|(rho, part)| *rho = *rho * inverse(*part));
+    let source = direct.source(&open, &lit);
+    let plan = Plan::new(&open, direct.visibility).shaped();
     let light = plan.sketched(&source, &lit, part, SEEDS[0])?;
     let (needed, available) = (plan.bytes(&light, part), request.memory);
     if needed > available {
         return Err(LinkedError::Memory { patches: patches.len(), needed, available });
     }
     let operator = plan.assemble(&light, part, SEEDS[1], |_| ());
-    let mut relaxation = Gmres::new(System::new(&source, &patches.reflectance, &operator)?);
+    let mut relaxation = Gmres::new(System::new(&source, &open.reflectance, &operator)?);
     let stop = Stop { residual: RESIDUAL * request.accuracy * max_norm(&source), sweeps: SWEEPS };
     let report = relax(&mut relaxation, stop, |_, _, _| true);
     let sent = relaxation.solution();
     let mut arriving = vec![V::splat(0.0); sent.len()];
     operator.apply(&sent, &mut arriving);
     let links = operator.statistics().links as usize;
-    let mut field = Field::new(direct, &patches, (lit, arriving), links);
+    let mut field = Field::new(direct, patches, (lit, arriving, &exposed), links);
     field.error = Error::new(&field, &plan, (&sent, &light, part), report.residual);
     Ok(field)
+}
+
+/// 1 over a part that is not buried; 0 where all is.
+fn inverse(exposed: f64) -> f64 {
+    if exposed > 0.0 { exposed.recip() } else { 0.0 }
 }
 
 /// Sweeps of the iteration; whatever converges in use needs far fewer.

@@ -56,17 +56,18 @@ impl Corners {
         places
     }
 
-    /// At each corner the mean over the patches that meet there.
-    pub fn means<V: Value>(&self, patches: &Patches<V>, values: &[V]) -> Vec<V> {
+    /// At each corner the mean over the patches that meet there, each with a weight; 0 where they have none.
+    pub fn means<V: Value>(&self, patches: &Patches<V>, values: &[V], weights: &[f64]) -> Vec<V> {
         let mut sums = vec![(V::splat(0.0), 0.0); self.count];
-        for (patch, value) in values.iter().enumerate() {
+        for (patch, (value, weight)) in values.iter().zip(weights).enumerate() {
             for corner in self.of(patches, patch) {
-                let (sum, count) = &mut sums[*corner as usize];
-                *sum += *value;
-                *count += 1.0;
+                let (sum, weights) = &mut sums[*corner as usize];
+                *sum += *value * *weight;
+                *weights += *weight;
             }
         }
-        sums.into_iter().map(|(sum, count)| sum * (1.0 / count)).collect()
+        let mean = |(sum, weight): (V, f64)| if weight > 0.0 { sum * weight.recip() } else { V::splat(0.0) };
+        sums.into_iter().map(mean).collect()
     }
 
     /// What is linear between corners and the middle of a patch, at a point of it.

@@ -9,6 +9,7 @@
 
 pub(crate) mod blockers;
 mod build;
+mod buried;
 mod bvh;
 mod count;
 mod end;
