@@ -5,7 +5,9 @@
 mod run;
 
 use run::{folder, fredholm, json, names, refuse, text};
+use std::f64::consts::PI;
 use std::fs;
+use std::path::Path;
 
 #[test]
 fn a_scene_is_baked_by_its_name_and_the_table_says_what_it_is() {
@@ -87,4 +89,70 @@ fn what_cannot_be_baked_is_told_and_leaves_nothing() {
         ],
         |words| fredholm(&folder, words),
     );
+}
+
+/// A room of 4 m × 4 m × 3 m with a lamp and a ball of 2 k² faces, as OBJ and MTL.
+fn room_with_a_ball(folder: &Path, k: usize) {
+    let mut vertices = String::new();
+    let mut faces = [const { String::new() }; 2];
+    let mut count = 0;
+    let mut add = |into: usize, corners: &[[f64; 3]]| {
+        corners.iter().for_each(|[x, y, z]| vertices += &format!("v {x} {y} {z}\n"));
+        let numbers: Vec<String> = (1..=corners.len()).map(|i| (count + i).to_string()).collect();
+        count += corners.len();
+        faces[into] += &format!("f {}\n", numbers.join(" "));
+    };
+    let (w, h) = (4.0, 3.0);
+    add(0, &[[0.0, 0.0, 0.0], [w, 0.0, 0.0], [w, w, 0.0], [0.0, w, 0.0]]);
+    add(0, &[[0.0, 0.0, h], [0.0, w, h], [w, w, h], [w, 0.0, h]]);
+    add(0, &[[0.0, 0.0, 0.0], [0.0, w, 0.0], [0.0, w, h], [0.0, 0.0, h]]);
+    add(0, &[[w, 0.0, 0.0], [w, 0.0, h], [w, w, h], [w, w, 0.0]]);
+    add(0, &[[0.0, w, 0.0], [w, w, 0.0], [w, w, h], [0.0, w, h]]);
+    add(0, &[[0.0, 0.0, 0.0], [0.0, 0.0, h], [w, 0.0, h], [w, 0.0, 0.0]]);
+    add(1, &[[1.5, 1.5, 2.9], [1.5, 2.5, 2.9], [2.5, 2.5, 2.9], [2.5, 1.5, 2.9]]);
+    let point = |i: usize, j: usize| {
+        let [theta, phi] = [i, j].map(|n| PI * n as f64 / k as f64);
+        [2.0 + 0.8 * theta.sin() * phi.cos(), 2.0 + 0.8 * theta.sin() * phi.sin(), 1.0 + 0.8 * theta.cos()]
+    };
+    for i in 0..k {
+        for j in 0..2 * k {
+            let corners = [point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)];
+            match i {
+                0 => add(0, &corners[..3]),
+                _ if i + 1 == k => add(0, &[corners[0], corners[1], corners[3]]),
+                _ => add(0, &corners),
+            }
+        }
+    }
+    let [white, lamp] = faces;
+    let obj = format!("mtllib room.mtl\n{vertices}usemtl white\n{white}usemtl lamp\n{lamp}");
+    fs::write(folder.join("room.obj"), obj).unwrap();
+    fs::write(folder.join("room.mtl"), "newmtl white\nKd .7 .7 .7\nnewmtl lamp\nKd 0 0 0\nKe 20 20 20\n")
+        .unwrap();
+}
+
+#[test]
+fn a_scene_of_thousands_of_faces_is_baked_to_an_accuracy_too() {
+    let folder = folder("bake-many");
+    room_with_a_ball(&folder, 32);
+    for (words, form) in [("--size 512", "texture"), ("--vertex-colours", "vertex-colours")] {
+        let output = fredholm(&folder, &format!("bake room.obj --accuracy 5% -o a.glb --json - {words}"));
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        let report = json(&output.stdout);
+        assert_eq!((&report["form"], &report["outcome"]), (&form.into(), &"met".into()), "{report}");
+        assert!(report["polygons"].as_u64().is_none_or(|polygons| polygons > 2000), "{report}");
+        assert!(fs::read(folder.join("a.glb")).unwrap().starts_with(b"glTF"));
+    }
+    let output = fredholm(&folder, "radiosity room.obj --accuracy 5% --size 64x64 --json -");
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let report = json(&output.stdout);
+    let number = |key: &str| report[key].as_f64().unwrap();
+    assert!(number("error") <= 0.05 && number("patches") >= 4000.0, "{report}");
+    // In a closed room all that the lamp emits is absorbed: .3 of what arrives at white, and all that comes back to the lamp.
+    let total = |of: &str, absorptance: [f64; 2]| {
+        let surfaces = report["surfaces"].as_array().unwrap().iter().zip(absorptance);
+        surfaces.map(|(s, part)| part * s["area"].as_f64().unwrap() * s[of][0].as_f64().unwrap()).sum::<f64>()
+    };
+    let [absorbed, emitted] = [total("mean_irradiance", [0.3, 1.0]), total("emission", [1.0, 1.0])];
+    assert!(emitted > 0.0 && (absorbed / emitted - 1.0).abs() < 0.03, "{absorbed} W of {emitted}");
 }

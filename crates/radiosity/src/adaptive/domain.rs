@@ -33,7 +33,7 @@ pub struct Domain<'a, V> {
 /// More faces than can be looked at in pairs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "{0} faces: what is between any two of them is looked at, for {MOST_FACES} at most; ask for patches in place of an accuracy, or simplify the mesh"
+    "{0} faces: what is between any two of them is looked at, for {MOST_FACES} at most; `linked` takes any number"
 )]
 pub struct TooManyFaces(pub usize);
 
