@@ -49,6 +49,23 @@ impl Block {
         self.senders.iter().copied().zip(self.factors.chunks_exact(self.patches.max(1)))
     }
 
+    /// The factors of all patches from a sender, by its number.
+    pub fn column(&self, k: usize) -> &[f32] {
+        &self.factors[k * self.patches..(k + 1) * self.patches]
+    }
+
+    /// The senders that have places of the tree among their own that are in `here`, with the factors of all patches.
+    pub fn columns_within(
+        &self,
+        range: impl Fn(Cluster) -> Range<usize>,
+        here: &Range<usize>,
+    ) -> impl Iterator<Item = (Cluster, &[f32])> {
+        let first = self.senders.partition_point(|sender| range(*sender).end <= here.start);
+        let end = here.end;
+        let within = (first..self.senders.len()).take_while(move |k| range(self.senders[*k]).start < end);
+        within.map(|k| (self.senders[k], self.column(k)))
+    }
+
     /// The sender that has a place of the tree among its own, with the factors of all patches; senders ascend in the tree.
     pub fn column_with(
         &self,
@@ -57,7 +74,7 @@ impl Block {
     ) -> Option<(Cluster, &[f32])> {
         let k = self.senders.partition_point(|sender| range(*sender).end <= place);
         let sender = *self.senders.get(k).filter(|sender| range(**sender).contains(&place))?;
-        Some((sender, &self.factors[k * self.patches..(k + 1) * self.patches]))
+        Some((sender, self.column(k)))
     }
 
     /// How many factors are not 0.

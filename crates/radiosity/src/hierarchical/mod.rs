@@ -14,6 +14,7 @@ mod error;
 mod factor;
 mod kept;
 mod lines;
+mod relaxed;
 
 pub use build::{Light, Plan};
 pub use error::Judged;
@@ -70,8 +71,12 @@ impl Hierarchical {
 
     /// `out` = F̃ u.
     fn gather<V: Value>(&self, u: &[V], out: &mut [V]) {
-        let means = self.clusters.means(u);
-        let gathered: Vec<Vec<V>> = self.blocks.par_iter().map(|block| block.gather(&means)).collect();
+        self.gather_means(&self.clusters.means(u), out);
+    }
+
+    /// What each patch gathers from means over clusters.
+    fn gather_means<V: Value>(&self, means: &[V], out: &mut [V]) {
+        let gathered: Vec<Vec<V>> = self.blocks.par_iter().map(|block| block.gather(means)).collect();
         for (block, values) in self.blocks.iter().zip(gathered) {
             let members = self.clusters.tree.members(block.receiver());
             // One patch stands for all of a sketch.
