@@ -21,13 +21,13 @@ use std::process::{Child, Command, Stdio};
 use std::time::Instant;
 
 /// Segments of a set.
-const SEGMENTS: usize = 1 << 18;
+const SEGMENTS: usize = 1 << 17;
 
 /// Segments between two patches that follow each other in the coherent set: what a form factor casts at most.
 const TOGETHER: usize = 64;
 
 /// Turns, of which medians are told.
-const TURNS: usize = 9;
+const TURNS: usize = 7;
 
 /// What is asked of Embree: the name, rays at a time (0 for streams), and whether its scene is robust.
 const KINDS: [(&str, u32, u32); 7] = [
@@ -40,7 +40,7 @@ const KINDS: [(&str, u32, u32); 7] = [
     ("streams", 0, 0),
 ];
 
-type Segment = (DVec3, DVec3);
+type Segment = [DVec3; 2];
 
 fn main() {
     let asked: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
@@ -50,7 +50,9 @@ fn main() {
         println!("Embree 3 is not installed, or there is no C compiler: our own numbers alone");
     }
     let threads = rayon::current_num_threads();
-    println!("10⁶ segments a second; beside Embree's, ours in parts of it; `differ`: hidden for us alone, for Embree alone");
+    println!(
+        "10⁶ segments a second; beside Embree's, ours in parts of it; `differ`: hidden for us alone, for Embree alone"
+    );
     for name in ["Cornell box", "hall", "terrain 100k", "terrain 1M", "building"] {
         if asked.is_empty() || asked.iter().any(|word| name.contains(word.as_str())) {
             compare(name, program.as_deref().map(|program| (program, folder.path())), threads);
@@ -102,10 +104,14 @@ fn scene(name: &str) -> Scene<fredholm::value::Rgb> {
 
 /// The polygons that have something of the scene on both sides.
 fn hiding(polygons: &[Polygon]) -> impl Iterator<Item = &Polygon> {
-    let corners: Vec<DVec3> = polygons.iter().flat_map(|polygon| polygon.vertices().iter().copied()).collect();
+    let corners: Vec<DVec3> =
+        polygons.iter().flat_map(|polygon| polygon.vertices().iter().copied()).collect();
     let size = corners.iter().fold(0.0, |size: f64, v| size.max(v.abs().max_element()));
     polygons.iter().filter(move |polygon| {
-        let beyond = |side: f64| corners.iter().any(|v| side * polygon.height_of(*v) > 1e-9 * size);
+        let is_beyond = |side: f64, v: &DVec3| side * polygon.height_of(*v) > 1e-9 * size;
+        // Corners from all over the scene tell of most.
+        let few = corners.iter().step_by(corners.len().div_ceil(1000));
+        let beyond = |side: f64| few.clone().chain(&corners).any(|v| is_beyond(side, v));
         beyond(1.0) && beyond(-1.0)
     })
 }
@@ -113,7 +119,7 @@ fn hiding(polygons: &[Polygon]) -> impl Iterator<Item = &Polygon> {
 /// Two points of two patches that are in front of each other.
 fn segment([a, b]: [&Polygon; 2], random: &mut Random) -> Option<Segment> {
     let (s, t) = (random.on(a), random.on(b));
-    ((t - s).dot(a.normal()) > 0.0 && (s - t).dot(b.normal()) > 0.0).then_some((s, t))
+    ((t - s).dot(a.normal()) > 0.0 && (s - t).dot(b.normal()) > 0.0).then_some([s, t])
 }
 
 /// Patches chosen by area.
@@ -139,7 +145,10 @@ impl<'a> Choice<'a> {
 /// Segments between any two patches.
 fn apart(patches: &[Polygon]) -> Vec<Segment> {
     let (choice, mut random) = (Choice::new(patches), Random(1));
-    std::iter::repeat_with(|| segment(choice.pair(&mut random), &mut random)).flatten().take(SEGMENTS).collect()
+    std::iter::repeat_with(|| segment(choice.pair(&mut random), &mut random))
+        .flatten()
+        .take(SEGMENTS)
+        .collect()
 }
 
 /// Segments between the same two patches, one after the other, then between two others.
@@ -148,9 +157,13 @@ fn together(patches: &[Polygon]) -> Vec<Segment> {
     let mut found = Vec::with_capacity(SEGMENTS);
     while found.len() < SEGMENTS {
         let pair = choice.pair(&mut random);
-        found.extend((0..TOGETHER).filter_map(|_| segment(pair, &mut random)));
+        let between: Vec<Segment> =
+            (0..2 * TOGETHER).filter_map(|_| segment(pair, &mut random)).take(TOGETHER).collect();
+        // Pairs that mostly see each other's backs are left out.
+        if between.len() == TOGETHER {
+            found.extend(between);
+        }
     }
-    found.truncate(SEGMENTS);
     found
 }
 
@@ -163,7 +176,7 @@ impl Embree {
         bytes.extend((triangles.len() as u32).to_le_bytes());
         bytes.extend((segments.len() as u32).to_le_bytes());
         let corners = triangles.iter().flatten();
-        for point in corners.chain(segments.iter().flat_map(|(s, t)| [s, t])) {
+        for point in corners.chain(segments.iter().flatten()) {
             bytes.extend(point.as_vec3().to_array().iter().flat_map(|x| x.to_le_bytes()));
         }
         let file = folder.join("segments");
@@ -192,54 +205,85 @@ impl Drop for Embree {
     }
 }
 
+/// How we are asked: segment by segment, or [`TOGETHER`] at once.
+const WAYS: [&str; 2] = ["one by one", "together"];
+
 fn measured(
     kind: &str,
     pool: &rayon::ThreadPool,
     visibility: &Visibility,
     segments: &[Segment],
-    embree: Option<&mut Embree>,
+    mut embree: Option<&mut Embree>,
 ) {
-    let mut hidden = vec![0_u8; SEGMENTS];
-    let (mut ours, mut theirs) = (Vec::new(), vec![Vec::new(); KINDS.len()]);
-    let mut of_embree = vec![Vec::new(); KINDS.len()];
-    let mut embree = embree;
+    let mut ours = [Answers::default(), Answers::default()];
+    let mut theirs = vec![Answers::default(); KINDS.len()];
     for _ in 0..TURNS {
-        ours.push(pass(pool, visibility, segments, &mut hidden));
+        for (together, answers) in [false, true].into_iter().zip(&mut ours) {
+            answers.hidden.resize(SEGMENTS, 0);
+            answers.seconds.push(pass(pool, visibility, segments, together, &mut answers.hidden));
+        }
         if let Some(embree) = embree.as_deref_mut() {
-            for (k, (_, rays, robust)) in KINDS.iter().enumerate() {
-                theirs[k].push(embree.pass((*rays, *robust), pool.current_num_threads(), &mut of_embree[k]));
+            for ((_, rays, robust), answers) in KINDS.iter().zip(&mut theirs) {
+                let seconds = embree.pass((*rays, *robust), pool.current_num_threads(), &mut answers.hidden);
+                answers.seconds.push(seconds);
             }
         }
     }
-    let rate = |seconds: &mut Vec<f64>| {
+    assert!(ours[0].hidden == ours[1].hidden, "answers do not depend on how they are asked for");
+    let part = ours[0].hidden.iter().filter(|hidden| **hidden == 1).count() as f64 / SEGMENTS as f64;
+    print!("  {kind}, {} threads, {:.0} % hidden:", pool.current_num_threads(), 100.0 * part);
+    let rates = ours.each_ref().map(Answers::rate);
+    WAYS.iter().zip(rates).for_each(|(way, rate)| print!("  {way} {rate:.2}"));
+    println!();
+    for ((name, ..), answers) in KINDS.iter().zip(&theirs).filter(|(_, answers)| !answers.seconds.is_empty())
+    {
+        let alone = |a: &Answers, b: &Answers| {
+            a.hidden.iter().zip(&b.hidden).filter(|(a, b)| **a == 1 && **b == 0).count()
+        };
+        let [one, together] = rates.map(|rate| rate / answers.rate());
+        let (mine, its) = (alone(&ours[0], answers), alone(answers, &ours[0]));
+        println!(
+            "    Embree {name:10} {:>7.2}  {one:>5.2} {together:>5.2}  differ {mine:>5} {its:>5}",
+            answers.rate()
+        );
+    }
+}
+
+/// Seconds of each turn, and which segments are hidden.
+#[derive(Clone, Default)]
+struct Answers {
+    seconds: Vec<f64>,
+    hidden: Vec<u8>,
+}
+
+impl Answers {
+    /// 10⁶ segments a second.
+    fn rate(&self) -> f64 {
+        let mut seconds = self.seconds.clone();
         seconds.sort_by(f64::total_cmp);
         SEGMENTS as f64 / seconds[seconds.len() / 2] / 1e6
-    };
-    let own = rate(&mut ours);
-    let part = hidden.iter().filter(|hidden| **hidden == 1).count() as f64 / SEGMENTS as f64;
-    println!(
-        "  {kind}, {} threads, {:.0} % hidden: ours {own:.2}",
-        pool.current_num_threads(),
-        100.0 * part
-    );
-    if embree.is_none() {
-        return;
-    }
-    for (k, (name, ..)) in KINDS.iter().enumerate() {
-        let rate = rate(&mut theirs[k]);
-        let alone = |a: &[u8], b: &[u8]| a.iter().zip(b).filter(|(a, b)| **a == 1 && **b == 0).count();
-        let (mine, its) = (alone(&hidden, &of_embree[k]), alone(&of_embree[k], &hidden));
-        println!("    Embree {name:10} {rate:>7.2}  {:>5.2}  differ {mine:>5} {its:>5}", own / rate);
     }
 }
 
 /// Seconds that all segments take.
-fn pass(pool: &rayon::ThreadPool, visibility: &Visibility, segments: &[Segment], hidden: &mut [u8]) -> f64 {
+fn pass(
+    pool: &rayon::ThreadPool,
+    visibility: &Visibility,
+    segments: &[Segment],
+    together: bool,
+    hidden: &mut [u8],
+) -> f64 {
     let start = Instant::now();
     pool.install(|| {
         hidden.par_chunks_mut(2048).zip(segments.par_chunks(2048)).for_each(|(hidden, segments)| {
-            for (hidden, (s, t)) in hidden.iter_mut().zip(segments) {
-                *hidden = u8::from(!visibility.unoccluded(*s, *t));
+            if together {
+                let mut clear = Vec::new();
+                visibility.unoccluded_each(segments, &mut clear);
+                hidden.iter_mut().zip(clear).for_each(|(hidden, clear)| *hidden = u8::from(!clear));
+            } else {
+                for (hidden, [s, t]) in hidden.iter_mut().zip(segments) {
+                    *hidden = u8::from(!visibility.unoccluded(*s, *t));
+                }
             }
         });
     });
