@@ -196,7 +196,11 @@ fn gathering_and_shooting_by_links_solve_what_the_action_does() {
         // As many shots as would be n columns are received over as many links as there are, some times.
         let each = links.1.load(Ordering::Relaxed) as f64 / shots.residuals.len() as f64;
         let in_row = operator.statistics().links as f64 / patches.len() as f64;
-        println!("{}: {} shots, {each:.0} received each, {in_row:.0} links a patch", scene.name, shots.residuals.len());
+        println!(
+            "{}: {} shots, {each:.0} received each, {in_row:.0} links a patch",
+            scene.name,
+            shots.residuals.len()
+        );
         assert!(each < 2.0 * in_row, "{}: {each} received of a shot, {in_row} links a patch", scene.name);
     }
 }
@@ -229,6 +233,36 @@ fn four_times_the_patches_have_little_more_than_four_times_the_links() {
         let growth = links(8000) / links(2000);
         assert!(growth < 1.4, "{}: {growth}", scene.name);
     }
+}
+
+#[test]
+fn a_picture_shows_who_gathers_from_what() {
+    let pictured = |scene: &Scene<Rgb>, count: usize| {
+        let (patches, visibility) = cut(scene, count);
+        let picture = linked(&patches, &visibility, 0.1).picture();
+        assert!(picture.contains(&format!("{} patches: ", patches.len())), "{}", &picture[..600]);
+        assert!(picture.len() < 4 << 20 && picture.ends_with("</svg>\n"));
+        // The parts of the area that are blue, orange and white: 960 squared in all.
+        let areas = |colours: &[&str]| {
+            let of = |line: &str, name: &str| -> f64 {
+                line.split(&format!("{name}=\"")).nth(1).unwrap().split('"').next().unwrap().parse().unwrap()
+            };
+            let drawn = picture.lines().filter(|line| colours.iter().any(|colour| line.contains(colour)));
+            drawn.map(|line| of(line, " width") * of(line, " height")).sum::<f64>() / (960.0 * 960.0)
+        };
+        [
+            areas(&["#08306b", "#08519c", "#2171b5", "#4292c6", "#6baed6", "#9ecae1"]),
+            areas(&["#7f2704", "#a63603", "#d94801", "#f16913", "#fd8d3c", "#fdae6b"]),
+        ]
+    };
+    // In an empty cube a wall sees the other five, and all of each.
+    let mut empty = scenes::building(1);
+    empty.surfaces.truncate(1);
+    let [all, some] = pictured(&empty, 600);
+    assert!((0.6..0.9).contains(&all) && some < 0.05, "{all} and {some}");
+    // Of four rooms most see only themselves, and something hides in doors.
+    let [all, some] = pictured(&scenes::building(2), 3000);
+    assert!((0.05..0.4).contains(&all) && some > 0.01, "{all} and {some}");
 }
 
 #[test]

@@ -69,11 +69,12 @@ impl<V: Value> Gather<V> for Gathering<'_, V> {
     fn group(&mut self, group: usize, u: &[V]) -> Gathered<'_, V> {
         let clusters = &self.links.clusters;
         if group == 0 {
-            self.means = clusters.means(u);
+            self.means = self.links.ascent.means(u);
         }
         let block = &self.links.blocks[group];
         let unknowns = clusters.tree.members(block.receiver());
-        self.sums = block.gather(&self.means);
+        self.sums.resize(unknowns.len(), V::splat(0.0));
+        block.gather(&self.means, &mut self.sums);
         self.inside.clear();
         self.inside.resize(unknowns.len() * unknowns.len(), 0.0);
         let here = clusters.tree.range(block.receiver());
@@ -122,7 +123,9 @@ impl<'a, V: Value> Shooting<'a, V> {
         let senders = || {
             let blocks = (0_u32..).zip(&links.blocks);
             blocks.flat_map(|(number, block)| {
-                (0_u32..).zip(block.columns()).map(move |(column, (sender, _))| (sender.index(), (number, column)))
+                (0_u32..)
+                    .zip(block.columns())
+                    .map(move |(column, (sender, _))| (sender.index(), (number, column)))
             })
         };
         let mut begins = vec![0_u32; clusters + 1];
@@ -169,7 +172,8 @@ impl<V: Value> Shoot<V> for Shooting<'_, V> {
         for (number, column) in &self.receivers[self.begins[k] as usize..self.begins[k + 1] as usize] {
             let block = &self.links.blocks[*number as usize];
             self.received.clear();
-            self.received.extend(block.column(*column as usize).iter().map(|factor| held * f64::from(*factor)));
+            self.received
+                .extend(block.column(*column as usize).iter().map(|factor| held * f64::from(*factor)));
             receive(self.links.clusters.tree.members(block.receiver()), &self.received);
         }
     }
