@@ -199,7 +199,7 @@ fn southwell_carries_what_the_unknowns_have_gathered() {
     }
     let mut image = vec![Spectrum([0.0; 3]); N];
     p.matrix.apply(&solver.solution(), &mut image);
-    assert!(distance(&image, solver.gathered()) < 1e-10);
+    assert!(distance(&image, &solver.gathered()) < 1e-10);
 }
 
 #[test]

@@ -351,7 +351,7 @@ impl<V: Value> Run<'_, V> {
         let every = self.options.method == Method::Nystrom || self.space.is_some();
         let checked = spread(n, if every { n } else { SAMPLED_ROWS });
         let computed = ((report.residuals.len() + checked.len()) * n) as u64;
-        let solution = self.judge(system, southwell.gathered(), report, &checked);
+        let solution = self.judge(system, &southwell.gathered(), report, &checked);
         Ok(Solution { form_factors: computed, solve_seconds: start.elapsed().as_secs_f64(), ..solution })
     }
 

@@ -2,13 +2,16 @@
 
 #![allow(clippy::unwrap_used, reason = "in a test a panic is the message, in its helpers too")]
 
-use fredholm::operator::{Columns, Matrix, Operator, Rows, TransposedOperator};
-use fredholm::value::{Rgb, Value};
+use fredholm::operator::{Columns, Gather, Line, Matrix, Operator, Rows, Shoot, TransposedOperator};
+use fredholm::relax::{GaussSeidel, Outcome, Relaxation, Southwell, Stop, relax};
+use fredholm::system::System;
+use fredholm::value::{Rgb, Value, max_norm};
 use radiosity::hierarchical::{Hierarchical, Light, Plan};
 use radiosity::patches::{Patches, size_for_count};
 use radiosity::scene::{Scene, cornell_box};
 use radiosity::solve::{Options, Solution, SolveError, Solver, Storage, Unobserved, solve};
 use radiosity::visibility::Visibility;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 #[path = "../benches/scenes/mod.rs"]
 mod scenes;
@@ -101,6 +104,107 @@ fn the_same_digits_come_from_any_number_of_threads() {
     assert_eq!(sums(1), sums(3));
 }
 
+/// Links that are asked for no line, and count what is received of shots.
+struct NoLines<'a>(&'a Hierarchical, AtomicU64);
+
+impl Matrix for NoLines<'_> {
+    fn dim(&self) -> usize {
+        self.0.dim()
+    }
+    fn diagonal(&self, i: usize) -> f64 {
+        self.0.diagonal(i)
+    }
+}
+
+impl Rows for NoLines<'_> {
+    fn row<'a>(&'a self, _: usize, _: &'a mut Vec<f64>) -> Line<'a> {
+        panic!("a row has as many numbers as there are patches")
+    }
+    fn act<V: Value>(&self, u: &[V], out: &mut [V]) {
+        self.0.act(u, out);
+    }
+    fn gathering<'a, V: Value>(&'a self) -> Option<Box<dyn Gather<V> + 'a>> {
+        self.0.gathering()
+    }
+}
+
+impl Columns for NoLines<'_> {
+    fn column<'a>(&'a self, _: usize, _: &'a mut Vec<f64>) -> Line<'a> {
+        panic!("a column has as many numbers as there are patches")
+    }
+    fn shooting<'a, V: Value>(&'a self) -> Option<Box<dyn Shoot<V> + 'a>> {
+        Some(Box::new(Counted(self.0.shooting()?, &self.1)))
+    }
+}
+
+#[derive(Debug)]
+struct Counted<'a, V>(Box<dyn Shoot<V> + 'a>, &'a AtomicU64);
+
+impl<V: Value> Shoot<V> for Counted<'_, V> {
+    fn send(&mut self, j: usize, step: V) {
+        self.0.send(j, step);
+    }
+    fn held(&self) -> f64 {
+        self.0.held()
+    }
+    fn deliver(&mut self, receive: &mut dyn FnMut(&[usize], &[V])) {
+        self.0.deliver(&mut |unknowns, received| {
+            self.1.fetch_add(unknowns.len() as u64, Ordering::Relaxed);
+            receive(unknowns, received);
+        });
+    }
+    fn outstanding(&self) -> Vec<V> {
+        self.0.outstanding()
+    }
+}
+
+#[test]
+fn gathering_and_shooting_by_links_solve_what_the_action_does() {
+    for scene in [cornell_box(), scenes::building(2)] {
+        let (patches, visibility) = cut(&scene, 1500);
+        let operator = linked(&patches, &visibility, 0.1);
+        let links = NoLines(&operator, AtomicU64::new(0));
+        let (source, rho) = (&patches.emission, &patches.reflectance);
+        let system = System::new(source, rho, &links).unwrap();
+        let stop = |part: f64| Stop { residual: part * max_norm(source), sweeps: 1_000_000 };
+        let mut exact = GaussSeidel::new(system);
+        assert_eq!(relax(&mut exact, stop(1e-9), |_, _, _| true).outcome, Outcome::Converged);
+        let residual = max_norm(&system.residual(&exact.solution()));
+        assert!(residual <= 1e-9 * max_norm(source), "{residual}");
+
+        let mut gathered = GaussSeidel::new(system);
+        let mut shot = Southwell::new(system, &patches.areas);
+        let report = relax(&mut gathered, stop(1e-4), |_, _, _| true);
+        // Fewer sweeps than bounces: what is gathered is used at once.
+        let mut bounces = fredholm::relax::SuccessiveApproximation::new(system);
+        let plain = relax(&mut bounces, stop(1e-4), |_, _, _| true);
+        assert!(report.residuals.len() < plain.residuals.len(), "{} sweeps", report.residuals.len());
+        let shots = relax(&mut shot, stop(1e-4), |_, _, _| true);
+        assert_eq!(shots.outcome, Outcome::Converged);
+        // What it carries is the residual of its solution, and F times that.
+        let (carried, residual) = (shot.residual(), system.residual(&shot.solution()));
+        let apart: Vec<Rgb> = carried.iter().zip(&residual).map(|(r, s)| *r - *s).collect();
+        assert!(max_norm(&apart) < 1e-9 * max_norm(source));
+        let mut image = vec![Rgb::splat(0.0); patches.len()];
+        operator.apply(&shot.solution(), &mut image);
+        let sums = shot.gathered().iter().zip(&image).map(|(g, h)| *g - *h).collect::<Vec<_>>();
+        assert!(max_norm(&sums) < 1e-9 * max_norm(source));
+        for solution in [gathered.solution(), shot.solution()] {
+            let error = distance(&patches, &solution, &exact.solution());
+            assert!(error < 1e-3, "{}: {error}", scene.name);
+        }
+        // As many shots as would be n columns are received over as many links as there are, some times.
+        let each = links.1.load(Ordering::Relaxed) as f64 / shots.residuals.len() as f64;
+        let in_row = operator.statistics().links as f64 / patches.len() as f64;
+        println!(
+            "{}: {} shots, {each:.0} received each, {in_row:.0} links a patch",
+            scene.name,
+            shots.residuals.len()
+        );
+        assert!(each < 2.0 * in_row, "{}: {each} received of a shot, {in_row} links a patch", scene.name);
+    }
+}
+
 #[test]
 fn in_an_empty_room_rows_add_up_to_one_without_a_ray() {
     let mut scene = scenes::building(1);
@@ -129,6 +233,42 @@ fn four_times_the_patches_have_little_more_than_four_times_the_links() {
         let growth = links(8000) / links(2000);
         assert!(growth < 1.4, "{}: {growth}", scene.name);
     }
+}
+
+#[test]
+fn a_picture_shows_who_gathers_from_what() {
+    let pictured = |scene: &Scene<Rgb>, count: usize| {
+        let (patches, visibility) = cut(scene, count);
+        let links = linked(&patches, &visibility, 0.1);
+        let picture = links.picture();
+        assert!(picture.contains(&format!("{} patches: ", patches.len())), "{}", &picture[..600]);
+        assert!(picture.len() < 4 << 20 && picture.ends_with("</svg>\n"));
+        // The parts of the area that are blue, orange and white: 960 squared in all.
+        let areas = |colours: &[&str]| {
+            let of = |line: &str, name: &str| -> f64 {
+                line.split(&format!("{name}=\"")).nth(1).unwrap().split('"').next().unwrap().parse().unwrap()
+            };
+            let drawn = picture.lines().filter(|line| colours.iter().any(|colour| line.contains(colour)));
+            drawn.map(|line| of(line, " width") * of(line, " height")).sum::<f64>() / (960.0 * 960.0)
+        };
+        let all = areas(&["#08306b", "#08519c", "#2171b5", "#4292c6", "#6baed6", "#9ecae1"]);
+        let some = areas(&["#7f2704", "#a63603", "#d94801", "#f16913", "#fd8d3c", "#fdae6b"]);
+        // So do the rows: of blue no entry is 0, and of what is neither most are.
+        let mut buffer = Vec::new();
+        let sees = |i: usize| links.row(i, &mut buffer).iter().filter(|factor| *factor > 0.0).count();
+        let seen = (0..patches.len()).map(sees).sum::<usize>() as f64 / (patches.len() as f64).powi(2);
+        assert!(all - 0.05 < seen && seen < all + some + 0.05, "{seen}, of which {all} and {some}");
+        [all, some]
+    };
+    // In an empty cube a wall sees the other five, and all of each; where two meet a receiver has patches of both.
+    let mut empty = scenes::building(1);
+    empty.surfaces.truncate(1);
+    empty.surfaces[0].emission = Rgb::splat(1.0);
+    let [all, some] = pictured(&empty, 600);
+    assert!((0.6..0.84).contains(&all) && some < 0.25, "{all} and {some}");
+    // Through doors some patches of a receiver see what others do not.
+    let [all, some] = pictured(&scenes::building(2), 3000);
+    assert!(some > all, "{all} and {some}");
 }
 
 #[test]

@@ -353,3 +353,41 @@ fn a_certificate_of_blockage_is_true_and_found() {
     println!("{certain} of {hidden} hidden wholly are certified");
     assert!(certain as f64 > 0.5 * hidden as f64, "{certain} of {hidden}");
 }
+
+#[test]
+fn many_segments_at_once_have_the_answers_that_each_has() {
+    let mut random = Random(11);
+    let mut cut = rooms::cornell();
+    // A block in many triangles, as patches are.
+    cut.extend(rooms::ball(DVec3::new(0.2, 0.3, 0.2), 0.15, 24, 48));
+    let (mut hidden, mut asked) = (0, 0);
+    for polygons in [cut, rooms::furnished(3), confetti(&mut random)] {
+        let visibility = Visibility::new(&polygons);
+        for round in 0..600 {
+            let pair: [Polygon; 2] = std::array::from_fn(|_| {
+                let polygon = &polygons[random.below(polygons.len())];
+                rooms::cell(polygon, 4, random.below(4), random.below(4))
+            });
+            // Beams from cell to cell, fans from one point, and segments with nothing in common; among them some of no length.
+            let mut segments: Vec<[DVec3; 2]> = (0..150)
+                .map(|k| match round % 3 {
+                    0 => [random.on(&pair[0]), random.on(&pair[1])],
+                    1 => [
+                        pair[0].centroid(),
+                        if k < 70 { random.on(&pair[1]) } else { random.on_any(&polygons) },
+                    ],
+                    _ => [random.on_any(&polygons), random.on_any(&polygons)],
+                })
+                .collect();
+            segments[7][1] = segments[7][0];
+            segments.truncate([150, 64, 1, 9][round % 4]);
+            let mut together = vec![true; 3];
+            visibility.unoccluded_each(&segments, &mut together);
+            let each: Vec<bool> = segments.iter().map(|[s, t]| visibility.unoccluded(*s, *t)).collect();
+            assert_eq!(together, each, "round {round}");
+            hidden += each.iter().filter(|clear| !**clear).count();
+            asked += each.len();
+        }
+    }
+    assert!(hidden > asked / 5 && hidden < 4 * asked / 5, "{hidden} of {asked}");
+}

@@ -8,10 +8,12 @@ mod dense;
 pub mod hierarchical;
 mod line;
 mod on_the_fly;
+mod parts;
 
 pub use dense::{Dense, Entry, NotFinite};
 pub use line::Line;
 pub use on_the_fly::OnTheFly;
+pub use parts::{Gather, Gathered, Shoot};
 
 use crate::value::Value;
 use rayon::prelude::*;
@@ -47,6 +49,11 @@ pub trait Rows: Matrix {
             *value = self.row(i, buffer).dot(u);
         });
     }
+
+    /// A way to gather that is faster than row by row, for Gauss–Seidel, if there is one.
+    fn gathering<'a, V: Value>(&'a self) -> Option<Box<dyn Gather<V> + 'a>> {
+        None
+    }
 }
 
 /// A matrix whose columns can be read: what unknown j shoots to all others.
@@ -63,6 +70,11 @@ pub trait Columns: Matrix {
         out.par_iter_mut().enumerate().for_each_init(Vec::new, |buffer, (j, value)| {
             *value = self.column(j, buffer).dot(u);
         });
+    }
+
+    /// A way to shoot that is faster than column by column, for Southwell's method, if there is one.
+    fn shooting<'a, V: Value>(&'a self) -> Option<Box<dyn Shoot<V> + 'a>> {
+        None
     }
 }
 

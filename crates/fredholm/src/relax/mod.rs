@@ -10,11 +10,13 @@
 
 mod gauss_seidel;
 mod jacobi;
+mod largest;
 mod southwell;
 mod successive;
 
 pub use gauss_seidel::GaussSeidel;
 pub use jacobi::Jacobi;
+pub use largest::Largest;
 pub use southwell::Southwell;
 pub use successive::SuccessiveApproximation;
 

@@ -34,6 +34,9 @@ pub(crate) fn sight(visibility: &Visibility, a: &Polygon, b: &Polygon, rays: &Ra
     }
 }
 
+/// Rays that are cast together: as many as are faster so.
+const TOGETHER: usize = 64;
+
 /// The rays of a first look, on which the number needed is judged.
 const FIRST: u32 = 8;
 
@@ -81,7 +84,10 @@ pub(crate) fn visible_part_seen(
 ) -> f64 {
     let mut look = Look::default();
     let mut sequence = Sequence::new(pair);
-    let mut draw = |look: &mut Look, points: u32| {
+    let (mut ends, mut weights, mut clear) = (Vec::new(), Vec::new(), Vec::new());
+    let mut draw_some = |look: &mut Look, points: u32| {
+        ends.clear();
+        weights.clear();
         for _ in 0..points {
             let [s, t, u, v] = sequence.next();
             let (x, density) = start(s, t);
@@ -92,11 +98,18 @@ pub(crate) fn visible_part_seen(
             );
             // Infinite where the two points coincide, on patches that touch: one point of many.
             if k > 0.0 && k.is_finite() {
-                let (weight, clear) = (k * density * b.density(u, v), visibility.unoccluded(x, y));
-                look.add(weight, clear);
-                seen(&Sighting { ends: [x, y], weight, clear });
+                ends.push([x, y]);
+                weights.push(k * density * b.density(u, v));
             }
         }
+        visibility.unoccluded_each(&ends, &mut clear);
+        for ((ends, weight), clear) in ends.iter().zip(&weights).zip(&clear) {
+            look.add(*weight, *clear);
+            seen(&Sighting { ends: *ends, weight: *weight, clear: *clear });
+        }
+    };
+    let mut draw = |look: &mut Look, points: u32| {
+        (0..points).step_by(TOGETHER).for_each(|k| draw_some(look, (points - k).min(TOGETHER as u32)));
     };
     draw(&mut look, FIRST);
     // Where only slivers of the two face each other it takes longer to find a ray between them.

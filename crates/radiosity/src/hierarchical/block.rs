@@ -49,6 +49,23 @@ impl Block {
         self.senders.iter().copied().zip(self.factors.chunks_exact(self.patches.max(1)))
     }
 
+    /// The factors of all patches from a sender, by its number.
+    pub fn column(&self, k: usize) -> &[f32] {
+        &self.factors[k * self.patches..(k + 1) * self.patches]
+    }
+
+    /// The senders that have places of the tree among their own that are in `here`, with the factors of all patches.
+    pub fn columns_within(
+        &self,
+        range: impl Fn(Cluster) -> Range<usize>,
+        here: &Range<usize>,
+    ) -> impl Iterator<Item = (Cluster, &[f32])> {
+        let first = self.senders.partition_point(|sender| range(*sender).end <= here.start);
+        let end = here.end;
+        let within = (first..self.senders.len()).take_while(move |k| range(self.senders[*k]).start < end);
+        within.map(|k| (self.senders[k], self.column(k)))
+    }
+
     /// The sender that has a place of the tree among its own, with the factors of all patches; senders ascend in the tree.
     pub fn column_with(
         &self,
@@ -57,7 +74,7 @@ impl Block {
     ) -> Option<(Cluster, &[f32])> {
         let k = self.senders.partition_point(|sender| range(*sender).end <= place);
         let sender = *self.senders.get(k).filter(|sender| range(**sender).contains(&place))?;
-        Some((sender, &self.factors[k * self.patches..(k + 1) * self.patches]))
+        Some((sender, self.column(k)))
     }
 
     /// How many factors are not 0.
@@ -70,15 +87,64 @@ impl Block {
         (size_of::<Self>() + size_of_val(&*self.senders) + size_of_val(&*self.factors)) as u64
     }
 
-    /// What each patch gathers, from the means over all clusters.
-    pub fn gather<V: Value>(&self, means: &[V]) -> Vec<V> {
-        let mut sums = vec![V::splat(0.0); self.patches];
+    /// What each patch gathers, from the means over all clusters. One patch stands for all of a sketch.
+    pub fn gather<V: Value>(&self, means: &[V], sums: &mut [V]) {
+        if self.patches < LANES || self.patches > 2 * LANES {
+            return self.gather_few(means, sums);
+        }
+        let mut channel = 0;
+        while channel < V::CHANNELS {
+            channel += match V::CHANNELS - channel {
+                1 => self.gather_channels::<1, V>(means, channel, sums),
+                2 => self.gather_channels::<2, V>(means, channel, sums),
+                _ => self.gather_channels::<3, V>(means, channel, sums),
+            };
+        }
+    }
+
+    /// The same of some channels, whose sums stay in registers: of the first eight patches and of the last, which some of the first
+    /// may be among. Returns how many.
+    fn gather_channels<const C: usize, V: Value>(
+        &self,
+        means: &[V],
+        channel: usize,
+        sums: &mut [V],
+    ) -> usize {
+        let mut tiles = [[[0.0_f64; LANES]; 2]; C];
         for (sender, column) in self.columns() {
-            let mean = means[sender.index()];
-            for (sum, factor) in sums.iter_mut().zip(column) {
-                *sum += mean * f64::from(*factor);
+            let mean = &means[sender.index()].channels()[channel..channel + C];
+            let (Some(first), Some(last)) = (column.first_chunk::<LANES>(), column.last_chunk::<LANES>())
+            else {
+                continue;
+            };
+            let factors = [first, last].map(|factors| factors.map(f64::from));
+            for (tiles, mean) in tiles.iter_mut().zip(mean) {
+                for (tile, factors) in tiles.iter_mut().zip(&factors) {
+                    tile.iter_mut().zip(factors).for_each(|(sum, factor)| *sum += mean * factor);
+                }
             }
         }
-        sums
+        for (c, [first, last]) in tiles.iter().enumerate() {
+            let end = sums.len() - LANES;
+            let mut write = |from: usize, tile: &[f64; LANES]| {
+                let to = sums[from..].iter_mut().zip(tile);
+                to.for_each(|(value, sum)| value.channels_mut()[channel + c] = *sum);
+            };
+            write(0, first);
+            write(end, last);
+        }
+        C
+    }
+
+    fn gather_few<V: Value>(&self, means: &[V], sums: &mut [V]) {
+        sums.fill(V::splat(0.0));
+        for (sender, column) in self.columns() {
+            let mean = means[sender.index()];
+            let spread = sums.iter_mut().zip(column.iter().cycle());
+            spread.for_each(|(sum, factor)| *sum += mean * f64::from(*factor));
+        }
     }
 }
+
+/// Patches whose sums are one or two vectors: a block has twice as many at most, and mostly more than that.
+const LANES: usize = 8;

@@ -5,6 +5,7 @@ use super::clusters::Clusters;
 use super::cut::Cuts;
 use super::factor::{Factors, Link};
 use super::kept::Kept;
+use super::sweep::Ascent;
 use super::{Hierarchical, Statistics};
 use crate::patches::Patches;
 use crate::visibility::Visibility;
@@ -296,6 +297,7 @@ impl<'a, V: Value> Plan<'a, V> {
                 |receiver| tree.members(receiver).to_vec(),
                 self.patches.len(),
             ),
+            ascent: Ascent::new(&self.clusters),
             clusters: Arc::clone(&self.clusters),
             blocks,
             order_of,

@@ -2,8 +2,9 @@
 
 use super::Hierarchical;
 use super::block::Block;
+use super::relaxed::{Gathering, Shooting};
 use fredholm::operator::hierarchical::Cluster;
-use fredholm::operator::{Columns, Line, Rows};
+use fredholm::operator::{Columns, Gather, Line, Rows, Shoot};
 use fredholm::value::Value;
 use rayon::prelude::*;
 
@@ -83,6 +84,10 @@ impl Rows for Hierarchical {
     fn act<V: Value>(&self, u: &[V], out: &mut [V]) {
         self.gather(u, out);
     }
+
+    fn gathering<'a, V: Value>(&'a self) -> Option<Box<dyn Gather<V> + 'a>> {
+        Some(Box::new(Gathering::new(self)))
+    }
 }
 
 impl Columns for Hierarchical {
@@ -105,5 +110,9 @@ impl Columns for Hierarchical {
 
     fn act_transposed<V: Value>(&self, u: &[V], out: &mut [V]) {
         self.shoot(u, out);
+    }
+
+    fn shooting<'a, V: Value>(&'a self) -> Option<Box<dyn Shoot<V> + 'a>> {
+        Some(Box::new(Shooting::new(self)))
     }
 }

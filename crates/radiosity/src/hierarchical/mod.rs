@@ -14,7 +14,10 @@ mod error;
 mod factor;
 mod kept;
 mod lines;
+mod picture;
 mod random;
+mod relaxed;
+mod sweep;
 
 pub use build::{Light, Plan};
 pub use error::Judged;
@@ -24,14 +27,15 @@ pub use kept::{Kept, KeptError};
 use block::Block;
 use clusters::Clusters;
 use fredholm::operator::Matrix;
-use fredholm::value::Value;
-use rayon::prelude::*;
 use std::sync::Arc;
+use sweep::Ascent;
 
 /// F̃, as links from patches to clusters.
 #[derive(Debug)]
 pub struct Hierarchical {
     clusters: Arc<Clusters>,
+    ascent: Ascent,
+    /// In the order of the tree.
     blocks: Vec<Block>,
     /// The block that each patch receives in, and its place there.
     places: Vec<(u32, u32)>,
@@ -66,17 +70,6 @@ impl Hierarchical {
     /// All its links, to go on with another time.
     pub fn into_kept(self, digest: u64, light: Light) -> Kept {
         Kept { digest, light, blocks: (0..).zip(self.blocks).collect(), rays: self.statistics.rays }
-    }
-
-    /// `out` = F̃ u.
-    fn gather<V: Value>(&self, u: &[V], out: &mut [V]) {
-        let means = self.clusters.means(u);
-        let gathered: Vec<Vec<V>> = self.blocks.par_iter().map(|block| block.gather(&means)).collect();
-        for (block, values) in self.blocks.iter().zip(gathered) {
-            let members = self.clusters.tree.members(block.receiver());
-            // One patch stands for all of a sketch.
-            members.iter().zip(values.iter().cycle()).for_each(|(patch, value)| out[*patch] = *value);
-        }
     }
 }
 

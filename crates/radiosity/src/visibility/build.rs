@@ -1,6 +1,7 @@
 //! Builds the tree: a binary one by the surface area heuristic, then eight subtrees to a node.
 
 use super::bvh::{Bvh, DEPTH, LEAF, Node};
+use super::facet::Facet;
 use super::packet::Packet;
 use glam::{DVec3, Vec3A};
 use std::ops::Range;
@@ -155,13 +156,13 @@ fn longest_axis(bounds: Bounds) -> usize {
 }
 
 /// The tree over triangles with the polygons that they are part of; no node at all over nothing.
-pub(super) fn tree(triangles: &[([DVec3; 3], u32)]) -> Bvh {
+pub(super) fn tree(triangles: &[([DVec3; 3], u32)], facets: &[Facet]) -> Bvh {
     let mut items: Vec<Item> =
         triangles.iter().zip(0..).map(|((corners, _), k)| Item::new(corners, k)).collect();
     let mut bvh = Bvh { nodes: Vec::new(), packets: Vec::new() };
     if !items.is_empty() {
         let root = Tree::new(&mut items, 0, 0);
-        Collapse { triangles, items: &items, bvh: &mut bvh }.node(&root);
+        Collapse { triangles, facets, items: &items, bvh: &mut bvh }.node(&root);
     }
     bvh
 }
@@ -169,6 +170,7 @@ pub(super) fn tree(triangles: &[([DVec3; 3], u32)]) -> Bvh {
 /// Turns the binary tree into nodes of eight.
 struct Collapse<'a> {
     triangles: &'a [([DVec3; 3], u32)],
+    facets: &'a [Facet],
     items: &'a [Item],
     bvh: &'a mut Bvh,
 }
@@ -202,7 +204,7 @@ impl Collapse<'_> {
         let mut members: Vec<_> =
             self.items[tree.range.clone()].iter().map(|i| self.triangles[i.triangle as usize]).collect();
         members.sort_by_key(|&(_, polygon)| polygon);
-        self.bvh.packets.push(Packet::new(&members));
+        self.bvh.packets.push(Packet::new(&members, self.facets));
         (self.bvh.packets.len() - 1) as u32
     }
 }

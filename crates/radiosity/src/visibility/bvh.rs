@@ -1,6 +1,7 @@
 //! A tree of boxes, eight to a node, over packets of eight triangles: one walk for all questions.
 
 use super::build;
+use super::facet::Facet;
 use super::packet::Packet;
 use glam::DVec3;
 use std::ops::ControlFlow;
@@ -43,9 +44,9 @@ pub(super) struct Bvh {
 }
 
 impl Bvh {
-    /// The tree over triangles with the polygons that they are part of.
-    pub(super) fn new(triangles: &[([DVec3; 3], u32)]) -> Self {
-        build::tree(triangles)
+    /// The tree over triangles with the polygons that they are part of, by their numbers among the facets.
+    pub(super) fn new(triangles: &[([DVec3; 3], u32)], facets: &[Facet]) -> Self {
+        build::tree(triangles, facets)
     }
 
     /// Whether there is nothing to meet.

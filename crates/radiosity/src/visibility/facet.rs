@@ -47,6 +47,31 @@ impl Frame {
     }
 }
 
+/// {x : normal·x = offset}, in the scene's unit.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plane {
+    normal: DVec3,
+    offset: f64,
+}
+
+impl Plane {
+    pub(super) const NONE: Self = Self { normal: DVec3::ZERO, offset: 0.0 };
+
+    /// The signed distance of a point, positive in front.
+    #[inline(always)]
+    fn height_of(&self, point: DVec3) -> f64 {
+        self.normal.dot(point) - self.offset
+    }
+
+    /// The heights of s and t, if these are on different sides, both farther than [`ON_PLANE`].
+    #[inline(always)]
+    pub(super) fn parts(&self, s: DVec3, t: DVec3) -> Option<[f64; 2]> {
+        let (above, below) = (self.height_of(s), self.height_of(t));
+        let apart = above.abs() > ON_PLANE && below.abs() > ON_PLANE && (above > 0.0) != (below > 0.0);
+        apart.then_some([above, below])
+    }
+}
+
 /// A [`Polygon`] in the scene's unit, with its plane {x : normal·x = offset}.
 #[derive(Clone, Debug)]
 pub(super) struct Facet {
@@ -79,9 +104,13 @@ impl Facet {
         self.vertices().iter().sum::<DVec3>() / self.sides as f64
     }
 
+    pub(super) fn plane(&self) -> Plane {
+        Plane { normal: self.normal, offset: self.offset }
+    }
+
     /// The signed distance of a point to the plane, positive in front.
     pub(super) fn height_of(&self, point: DVec3) -> f64 {
-        self.normal.dot(point) - self.offset
+        self.plane().height_of(point)
     }
 
     /// The parameter in (0, 1) at which the segment from s to t goes through the polygon, edges included.
@@ -89,9 +118,8 @@ impl Facet {
     /// Its plane must have s and t on different sides, both farther than [`ON_PLANE`]: so a polygon neither
     /// blocks a segment that ends on it nor one that runs in its plane, at whatever angle.
     pub(super) fn cut(&self, s: DVec3, t: DVec3) -> Option<f64> {
-        let (above, below) = (self.height_of(s), self.height_of(t));
-        let apart = above.abs() > ON_PLANE && below.abs() > ON_PLANE && (above > 0.0) != (below > 0.0);
-        (apart && self.encloses(s, (s - t) * above.signum())).then(|| above / (above - below))
+        let [above, below] = self.plane().parts(s, t)?;
+        self.encloses(s, (s - t) * above.signum()).then(|| above / (above - below))
     }
 
     /// Whether it cuts every segment between a point of a and one of b.

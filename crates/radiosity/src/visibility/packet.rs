@@ -1,54 +1,88 @@
 //! Eight triangles side by side, tried in f32 by Möller and Trumbore's test with margins: none is missed.
 
-use super::ray::Ray;
+use super::facet::{Facet, Plane};
 use glam::DVec3;
 use wide::f32x8;
 
-/// Up to eight triangles with corner a and edges b − a, c − a; an unused lane is NaN, which meets nothing.
+/// Triangles side by side, each with corner a and edges b − a, c − a; an unused lane is NaN, which meets nothing.
 #[derive(Clone, Debug)]
-pub(super) struct Packet {
+pub(super) struct Triangles {
     pub(super) corner: [f32x8; 3],
     pub(super) edges: [[f32x8; 3]; 2],
-    /// The largest component of the edges.
-    size: f32x8,
+}
+
+/// Up to eight triangles, and all that mostly decides about them in one place: where there are many, memory is what a ray waits for.
+#[derive(Clone, Debug)]
+#[repr(C)]
+pub(super) struct Packet {
+    pub(super) triangles: Triangles,
+    /// The plane of each triangle's polygon: a ray starts on one and ends on one, which by their planes are not in its way.
+    pub(super) planes: [Plane; 8],
     /// The polygon of each triangle; unused lanes repeat the last.
     pub(super) polygons: [u32; 8],
-    /// How many lanes are used.
-    count: usize,
+}
+
+/// Segments side by side, or one eight times, with margins for what f32 may be wrong by (see [`Ray`](super::ray::Ray)).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Segments {
+    pub(super) origin: [f32x8; 3],
+    pub(super) direction: [f32x8; 3],
+    /// Where they end, as a parameter: 1, or a little beyond the nearest hit so far.
+    pub(super) end: f32x8,
+    pub(super) side_margin: f32x8,
+    pub(super) end_margin: f32x8,
 }
 
 impl Packet {
-    /// The packet of one to eight triangles with the polygons that they are part of.
-    pub(super) fn new(triangles: &[([DVec3; 3], u32)]) -> Self {
+    /// The packet of one to eight triangles with the polygons that they are part of, by their numbers among the facets.
+    pub(super) fn new(triangles: &[([DVec3; 3], u32)], facets: &[Facet]) -> Self {
         let count = triangles.len();
         let lanes = |f: &dyn Fn(&[DVec3; 3]) -> f64| {
             f32x8::new(std::array::from_fn(|k| triangles.get(k).map_or(f32::NAN, |(t, _)| f(t) as f32)))
         };
         let edge = |k: usize| std::array::from_fn(|axis| lanes(&|t| t[k][axis] - t[0][axis]));
         Self {
-            corner: std::array::from_fn(|axis| lanes(&|t| t[0][axis])),
-            edges: [edge(1), edge(2)],
-            size: lanes(&|t| (t[1] - t[0]).abs().max((t[2] - t[0]).abs()).max_element()),
+            triangles: Triangles {
+                corner: std::array::from_fn(|axis| lanes(&|t| t[0][axis])),
+                edges: [edge(1), edge(2)],
+            },
+            planes: std::array::from_fn(|k| {
+                triangles.get(k).map_or(Plane::NONE, |(_, p)| facets[*p as usize].plane())
+            }),
             polygons: std::array::from_fn(|k| triangles[k.min(count - 1)].1),
-            count,
         }
     }
 
     /// The polygons, without immediate repetitions: the two halves of a quadrilateral are neighbours.
     pub(super) fn distinct(&self) -> impl Iterator<Item = u32> {
-        let used = &self.polygons[..self.count];
+        let used = &self.polygons;
         (0..used.len()).filter(|&k| k == 0 || used[k] != used[k - 1]).map(|k| used[k])
     }
+}
 
-    /// A bit for each triangle that the ray may meet before its end, and for each that it surely meets.
+impl Triangles {
+    /// The triangle of one lane, eight times.
+    pub(super) fn lane(&self, k: usize) -> Self {
+        let splat = |lanes: &[f32x8; 3]| std::array::from_fn(|axis| f32x8::splat(lanes[axis].to_array()[k]));
+        Self { corner: splat(&self.corner), edges: [splat(&self.edges[0]), splat(&self.edges[1])] }
+    }
+
+    /// The largest component of the edges.
+    #[inline(always)]
+    pub(super) fn size(&self) -> f32x8 {
+        let [e, f] = self.edges.map(|edge| edge[0].abs().fast_max(edge[1].abs()).fast_max(edge[2].abs()));
+        e.fast_max(f)
+    }
+
+    /// A bit for each lane in which the segment may meet the triangle before its end, and for each in which it surely does.
     ///
     /// With a the corner and e, f the edges, the ray s + τd meets the plane at a + ue + vf where
     /// (u, v, τ) = (T·(d×f), d·(T×e), f·(T×e)) / (e·(d×f)), T = s − a. The margins bound all rounding from
-    /// above (see [`Ray`]), also that of the determinant's sign: where that is in doubt, so small a
+    /// above (see [`Ray`](super::ray::Ray)), also that of the determinant's sign: where that is in doubt, so small a
     /// determinant makes the other three as small, for a true hit. What passes with the margins against it is
     /// a hit beyond doubt, farther from the ends than [`ON_PLANE`](super::facet::ON_PLANE).
     #[inline(always)]
-    pub(super) fn candidates(&self, ray: &Ray) -> Candidates {
+    pub(super) fn candidates(&self, ray: &Segments) -> Candidates {
         let [e, f] = &self.edges;
         let d = &ray.direction;
         let across = cross(d, f);
@@ -59,8 +93,9 @@ impl Packet {
         let (u, v) = (dot(&from, &across) ^ sign, dot(d, &around) ^ sign);
         let along = dot(f, &around) ^ sign;
         let determinant = determinant ^ sign;
-        let margin = self.size * ray.side_margin;
-        let end_margin = self.size * self.size * ray.end_margin;
+        let size = self.size();
+        let margin = size * ray.side_margin;
+        let end_margin = size * size * ray.end_margin;
         let (least, sum) = (u.fast_min(v), u + v);
         let end = determinant * ray.end;
         let possible = (least + margin).simd_ge(f32x8::ZERO)
@@ -75,16 +110,16 @@ impl Packet {
     }
 }
 
-/// Which of a packet's triangles a ray meets, a bit for each: what is certain is possible.
+/// Where a segment meets a triangle, a bit for each lane: what is certain is possible.
 pub(super) struct Candidates {
     pub(super) possible: u32,
     pub(super) certain: u32,
 }
 
-fn cross(a: &[f32x8; 3], b: &[f32x8; 3]) -> [f32x8; 3] {
+pub(super) fn cross(a: &[f32x8; 3], b: &[f32x8; 3]) -> [f32x8; 3] {
     [a[1].mul_sub(b[2], a[2] * b[1]), a[2].mul_sub(b[0], a[0] * b[2]), a[0].mul_sub(b[1], a[1] * b[0])]
 }
 
-fn dot(a: &[f32x8; 3], b: &[f32x8; 3]) -> f32x8 {
+pub(super) fn dot(a: &[f32x8; 3], b: &[f32x8; 3]) -> f32x8 {
     a[0].mul_add(b[0], a[1].mul_add(b[1], a[2] * b[2]))
 }

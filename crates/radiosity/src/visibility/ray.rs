@@ -2,7 +2,7 @@
 
 use super::bvh::{Node, Query};
 use super::facet::Facet;
-use super::packet::Packet;
+use super::packet::{Packet, Segments};
 use glam::DVec3;
 use std::ops::ControlFlow;
 use wide::f32x8;
@@ -19,12 +19,7 @@ const HALF: f32 = 0.5;
 /// is off by at most 48 ε |d| (|s| + ½) |e|, that for τ by 48 ε (|s| + ½) |e|², and the determinant by
 /// 36 ε |d| |e|². u + v − determinant with a determinant of doubtful sign takes 2·48 + 3·36 = 204 of these.
 pub(super) struct Ray {
-    pub(super) origin: [f32x8; 3],
-    pub(super) direction: [f32x8; 3],
-    /// Where the ray ends, as a parameter: 1, or a little beyond the nearest hit so far.
-    pub(super) end: f32x8,
-    pub(super) side_margin: f32x8,
-    pub(super) end_margin: f32x8,
+    pub(super) segment: Segments,
     inverse: [f32x8; 3],
     /// Of each axis, what is taken from plane·inverse to have the parameter there, a little too early.
     entry: [f32x8; 3],
@@ -38,6 +33,33 @@ impl Ray {
     /// None where there is no direction: a zero length, an infinity or a NaN.
     #[inline(always)]
     pub(super) fn new(s: DVec3, t: DVec3) -> Option<Self> {
+        let [origin, direction, [side_margin, end_margin, reach]] = Self::lane(s, t)?;
+        // A component of zero becomes one that moves nothing measurable: no infinity, so no NaN, in a product.
+        let inverse: [f32; 3] =
+            std::array::from_fn(|k| direction[k].abs().max(1e-20).copysign(direction[k]).recip());
+        // Twice 3|plane − s| + 2|s| roundoffs.
+        let pad = inverse.map(|i| 10.0 * ROUNDOFF * reach * i.abs());
+        let at = |k: usize| origin[k] * inverse[k];
+        Some(Self {
+            segment: Segments {
+                origin: std::array::from_fn(|k| f32x8::splat(origin[k])),
+                direction: std::array::from_fn(|k| f32x8::splat(direction[k])),
+                end: f32x8::ONE,
+                side_margin: f32x8::splat(side_margin),
+                end_margin: f32x8::splat(end_margin),
+            },
+            inverse: inverse.map(f32x8::splat),
+            entry: std::array::from_fn(|k| f32x8::splat(at(k) + pad[k])),
+            exit: std::array::from_fn(|k| f32x8::splat(at(k) - pad[k])),
+            sides: std::array::from_fn(|k| if direction[k] < 0.0 { (k + 3, k) } else { (k, k + 3) }),
+        })
+    }
+
+    /// What a ray is in one lane: origin, direction, and its two margins with the reach that they are of.
+    ///
+    /// None where there is no direction: a zero length, an infinity or a NaN.
+    #[inline(always)]
+    pub(super) fn lane(s: DVec3, t: DVec3) -> Option<[[f32; 3]; 3]> {
         let d = t - s;
         let length = d.length_squared();
         if !(length > 0.0 && length < f64::INFINITY) {
@@ -46,30 +68,15 @@ impl Ray {
         let (origin, direction) = (s.as_vec3(), d.as_vec3());
         let reach = origin.abs().max_element() + HALF;
         let margin = 256.0 * ROUNDOFF * reach;
-        // A component of zero becomes one that moves nothing measurable: no infinity, so no NaN, in a product.
-        let inverse: [f32; 3] =
-            std::array::from_fn(|k| direction[k].abs().max(1e-20).copysign(direction[k]).recip());
-        // Twice 3|plane − s| + 2|s| roundoffs.
-        let pad = inverse.map(|i| 10.0 * ROUNDOFF * reach * i.abs());
-        let at = |k: usize| origin[k] * inverse[k];
-        Some(Self {
-            origin: std::array::from_fn(|k| f32x8::splat(origin[k])),
-            direction: std::array::from_fn(|k| f32x8::splat(direction[k])),
-            end: f32x8::ONE,
-            side_margin: f32x8::splat(margin * direction.abs().max_element()),
-            end_margin: f32x8::splat(margin),
-            inverse: inverse.map(f32x8::splat),
-            entry: std::array::from_fn(|k| f32x8::splat(at(k) + pad[k])),
-            exit: std::array::from_fn(|k| f32x8::splat(at(k) - pad[k])),
-            sides: std::array::from_fn(|k| if direction[k] < 0.0 { (k + 3, k) } else { (k, k + 3) }),
-        })
+        let margins = [margin * direction.abs().max_element(), margin, reach];
+        Some([origin.to_array(), direction.to_array(), margins])
     }
 
     /// A bit for each box that the ray may meet before its end.
     #[inline(always)]
     fn select(&self, node: &Node) -> u32 {
         let mut enters = f32x8::ZERO;
-        let mut leaves = self.end;
+        let mut leaves = self.segment.end;
         for k in 0..3 {
             let (near, far) = self.sides[k];
             enters = enters.fast_max(node.bounds[near].mul_sub(self.inverse[k], self.entry[k]));
@@ -110,13 +117,16 @@ impl Query for Blocker<'_> {
 
     #[inline(always)]
     fn visit(&mut self, packet: &Packet) -> ControlFlow<()> {
-        let candidates = packet.candidates(&self.ray);
+        let candidates = packet.triangles.candidates(&self.ray.segment);
         if let Some(lane) = lanes(candidates.certain).next() {
             self.found = Some(packet.polygons[lane]);
             return ControlFlow::Break(());
         }
         for lane in lanes(candidates.possible) {
             let polygon = packet.polygons[lane];
+            if packet.planes[lane].parts(self.s, self.t).is_none() {
+                continue;
+            }
             if self.facets[polygon as usize].cut(self.s, self.t).is_some() {
                 self.found = Some(polygon);
                 return ControlFlow::Break(());
@@ -161,12 +171,12 @@ impl Query for Nearest<'_> {
 
     #[inline(always)]
     fn visit(&mut self, packet: &Packet) -> ControlFlow<()> {
-        for lane in lanes(packet.candidates(&self.ray).possible) {
+        for lane in lanes(packet.triangles.candidates(&self.ray.segment).possible) {
             let polygon = packet.polygons[lane];
             let Some(at) = self.facets[polygon as usize].cut(self.s, self.t) else { continue };
             if self.found.is_none_or(|best| self.comes_before((polygon, at), best)) {
                 self.found = Some((polygon, at));
-                self.ray.end = f32x8::splat(at as f32 * (1.0 + 4.0 * f32::EPSILON));
+                self.ray.segment.end = f32x8::splat(at as f32 * (1.0 + 4.0 * f32::EPSILON));
             }
         }
         ControlFlow::Continue(())

@@ -35,13 +35,14 @@ impl Screens {
         let triangles =
             |k: usize, name: u32| polygons[k].triangles().map(move |t| (t.map(|v| frame.point(v)), name));
         let all: Vec<_> = (0..polygons.len()).flat_map(|k| triangles(k, k as u32)).collect();
-        let is_wall = walls(&facets, &Bvh::new(&all));
+        let is_wall = walls(&facets, &Bvh::new(&all, &facets));
         let hiding = (0..polygons.len()).filter(|&k| !is_wall[k]);
         let triangles: Vec<_> = hiding.flat_map(|k| triangles(k, stands_for[k])).collect();
         let bodies = (0..polygons.len() as u32)
             .map(|k| vertices_of(k).iter().map(|&v| frame.point(v)).collect())
             .collect();
-        Self { frame, facets, bodies, tree: Bvh::new(&triangles) }
+        let tree = Bvh::new(&triangles, &facets);
+        Self { frame, facets, bodies, tree }
     }
 
     /// A polygon, made ready for [`between`](Self::between).

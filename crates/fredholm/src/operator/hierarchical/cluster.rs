@@ -61,12 +61,13 @@ fn length(vector: impl Iterator<Item = f64>) -> f64 {
 
 /// A cluster of a [`ClusterTree`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Cluster(usize);
+pub struct Cluster(u32);
 
 impl Cluster {
-    /// Its number, from 0 to [`ClusterTree::len`] − 1: parents come before their children.
+    /// Its number, from 0 to [`ClusterTree::len`] − 1: a cluster comes before its children, and next come those of the first, then
+    /// of the second.
     pub fn index(self) -> usize {
-        self.0
+        self.0 as usize
     }
 }
 
@@ -165,7 +166,7 @@ impl<const D: usize> ClusterTree<D> {
 
     /// The places of a cluster's points in [`Self::order`].
     pub fn range(&self, cluster: Cluster) -> Range<usize> {
-        self.nodes[cluster.0].range.clone()
+        self.nodes[cluster.index()].range.clone()
     }
 
     /// The numbers of a cluster's points.
@@ -175,17 +176,17 @@ impl<const D: usize> ClusterTree<D> {
 
     /// The box of a cluster's points, with their extent.
     pub fn bounds(&self, cluster: Cluster) -> &Bounds<D> {
-        &self.nodes[cluster.0].bounds
+        &self.nodes[cluster.index()].bounds
     }
 
     /// The two parts of a cluster; `None` for a leaf.
     pub fn children(&self, cluster: Cluster) -> Option<[Cluster; 2]> {
-        self.nodes[cluster.0].second.map(|second| [Cluster(cluster.0 + 1), Cluster(second)])
+        self.nodes[cluster.index()].second.map(|second| [Cluster(cluster.0 + 1), Cluster(second as u32)])
     }
 
     /// All clusters, parents before their children.
     pub fn top_down(&self) -> impl DoubleEndedIterator<Item = Cluster> + ExactSizeIterator + use<D> {
-        (0..self.len()).map(Cluster)
+        (0..self.len()).map(|k| Cluster(k as u32))
     }
 
     /// All clusters, children before their parents: the way in which sums over clusters are made.
@@ -195,7 +196,7 @@ impl<const D: usize> ClusterTree<D> {
 
     /// The clusters that are not cut, in the order of their ranges.
     pub fn leaves(&self) -> impl Iterator<Item = Cluster> + '_ {
-        self.top_down().filter(|cluster| self.nodes[cluster.0].second.is_none())
+        self.top_down().filter(|cluster| self.nodes[cluster.index()].second.is_none())
     }
 }
 
