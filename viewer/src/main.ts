@@ -412,7 +412,8 @@ class Page {
     const picture = this.view.pictures[lane]!;
     picture.mark('picked', settings.patch);
     const frame = this.run!.frame(lane)!;
-    picture.mark('shot', frame.shot === NONE || this.relit.isShown ? undefined : frame.shot);
+    const shoots = frame.shot !== NONE && frame.state === State.Running && !this.relit.isShown;
+    picture.mark('shot', shoots ? frame.shot : undefined);
     if (settings.display === 'light') {
       this.scale = undefined;
       picture.showLight(BRIGHTER * scene.exposure * 2 ** settings.exposure, this.skyGain);

@@ -498,7 +498,7 @@ fn a_sky_is_above_what_gltf_calls_up_and_meshes_that_are_all_black_are_told() {
     let mut steel = cube_scene();
     with_material(&mut steel, "\"name\":\"steel\"", "");
     std::fs::write(folder.join("a.glb"), steel.glb()).unwrap();
-    std::fs::write(folder.join("b.stl"), binary_stl(&cube(), "")).unwrap();
+    std::fs::write(folder.join("b.stl"), binary_stl(&triangulated(&cube()), "")).unwrap();
     let of = |meshes: &str, rest: &str| {
         let text = format!(
             "unit = 'm'\nmeshes = [{meshes}]\n{rest}\n[sun]\nazimuth = 90\nelevation = 0\nnormal_irradiance = 9\n\
