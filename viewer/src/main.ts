@@ -60,7 +60,7 @@ class Page {
     this.first = initial(scene, strongest());
     this.settings = read(location.hash, scene, initial(scene, strongest()));
     this.patches = new Patches(scene, source.corners);
-    this.view = new View(element<HTMLCanvasElement>('picture'), this.patches, scene.camera);
+    this.view = new View(element<HTMLCanvasElement>('picture'), this.patches, scene.camera, scene.sky);
     this.timeline = new Timeline(scene);
     this.relit = new Relit(scene.lamps.length, scene.patches);
     document.title = `${scene.name}: fredholm view`;
@@ -399,6 +399,12 @@ class Page {
     return { ...common, radiosity: frame.radiosity, rest: frame.rest, bound: frame.bound, other: rival?.radiosity ?? solution, otherName };
   }
 
+  /** How bright the sky is, of what the scene says. */
+  private get skyGain(): number {
+    const lamp = this.scene.sky?.lamp ?? -1;
+    return (this.relit.isShown ? this.settings.lamps : this.run!.lamps)[lamp] ?? 1;
+  }
+
   private showLane(lane: number): void {
     const sight = this.sight(lane);
     if (!sight) return;
@@ -406,17 +412,18 @@ class Page {
     const picture = this.view.pictures[lane]!;
     picture.mark('picked', settings.patch);
     const frame = this.run!.frame(lane)!;
-    picture.mark('shot', frame.shot === NONE || this.relit.isShown ? undefined : frame.shot);
+    const shoots = frame.shot !== NONE && frame.state === State.Running && !this.relit.isShown;
+    picture.mark('shot', shoots ? frame.shot : undefined);
     if (settings.display === 'light') {
       this.scale = undefined;
-      picture.material.showLight(((BRIGHTER * scene.exposure) / Math.PI) * 2 ** settings.exposure);
+      picture.showLight(BRIGHTER * scene.exposure * 2 ** settings.exposure, this.skyGain);
       picture.set('light', sight.radiosity, settings.smooth);
       return;
     }
     const quantity = QUANTITIES[settings.display];
     const values = quantity.values(sight, patches, scene);
     if (lane === 0) this.scale = quantity.scale(values, patches, sight);
-    picture.material.showNumbers(this.scale!, settings.contours && quantity.contours);
+    picture.showNumbers(this.scale!, settings.contours && quantity.contours);
     picture.set('number', values, settings.smooth && settings.display !== 'received' && settings.display !== 'sent');
   }
 

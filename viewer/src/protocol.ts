@@ -27,6 +27,19 @@ export interface Surface {
   emission: number[];
 }
 
+/** A sky, from which its radiance in any direction follows: sky.ts. */
+export interface Sky {
+  /** The radiance of the zenith. */
+  zenith: number[];
+  up: number[];
+  towards_sun: number[];
+  overcast: boolean;
+  /** a, b, c, d, e of the CIE's general skies. */
+  numbers: number[];
+  /** The lamp that dims it. */
+  lamp: number | null;
+}
+
 export interface Scene {
   name: string;
   patches: number;
@@ -35,6 +48,8 @@ export interface Scene {
   surfaces: Surface[];
   /** Which surfaces each lamp is; none if it is a point. */
   lamps: { name: string; surfaces: number[] }[];
+  /** What is beyond the surfaces, if there is something. */
+  sky: Sky | null;
   camera: Camera;
   /** From radiance to a screen on which 1 is white. */
   exposure: number;

@@ -8,7 +8,9 @@ import {
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { PatchMaterial } from './material';
 import type { Hit, Patches, V } from './patches';
-import type { Camera } from './protocol';
+import type { Camera, Sky } from './protocol';
+import type { Scale } from './scale';
+import { Backdrop } from './sky';
 import { Walk } from './walk';
 
 export type Tone = 'neutral' | 'agx' | 'linear';
@@ -20,10 +22,12 @@ export class Picture {
   readonly space = new Space();
   private readonly geometry = new BufferGeometry();
   private readonly outlines: Record<'picked' | 'shot', Line>;
+  private readonly backdrop: Backdrop | undefined;
 
   constructor(
     private readonly patches: Patches,
     shape: ReturnType<Patches['build']>,
+    sky: Sky | null,
   ) {
     const { geometry } = this;
     geometry.setIndex(new BufferAttribute(shape.index, 1));
@@ -41,8 +45,21 @@ export class Picture {
     const edges = new LineSegments(seams, this.material.forEdges());
     mesh.frustumCulled = edges.frustumCulled = false;
     this.space.add(mesh, edges);
+    if (sky) this.space.add((this.backdrop = new Backdrop(sky)));
     this.outlines = { picked: outline(0xffffff), shot: outline(0xffb000) };
     this.space.add(...Object.values(this.outlines));
+  }
+
+  /** Shows light; `exposure` is from radiance to a screen on which 1 is white, `sky` how bright that is, of what the scene says. */
+  showLight(exposure: number, sky: number): void {
+    this.material.showLight(exposure / Math.PI);
+    this.backdrop?.show(exposure * sky);
+  }
+
+  /** Shows numbers of patches on a scale; what is no surface has none. */
+  showNumbers(scale: Scale, contours: boolean): void {
+    this.material.showNumbers(scale, contours);
+    if (this.backdrop) this.backdrop.visible = false;
   }
 
   /** Values of patches, three or one each. */
@@ -94,11 +111,12 @@ export class View {
     readonly canvas: HTMLCanvasElement,
     private readonly patches: Patches,
     private readonly home: Camera,
+    sky: Sky | null,
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: false });
     this.renderer.autoClear = false;
     const shape = patches.build();
-    this.pictures = [new Picture(patches, shape), new Picture(patches, shape)];
+    this.pictures = [new Picture(patches, shape, sky), new Picture(patches, shape, sky)];
     const size = patches.diagonal;
     this.camera = new PerspectiveCamera(home.vertical_angle, 1, 1e-3 * size, 20 * size);
     // The controls take what is up when they are made.

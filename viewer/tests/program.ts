@@ -8,6 +8,7 @@ import { expect, type Page } from '@playwright/test';
 const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
 const PROGRAM = process.env['FREDHOLM'] ?? here('../../target/debug/fredholm');
 export const FURNACE = here('../../scenes/furnace/furnace.toml');
+export const DAYLIGHT = here('../../scenes/daylight');
 
 /** Runs the command to its end. */
 export const run = (...words: string[]): void => void execFileSync(PROGRAM, words);

@@ -164,6 +164,23 @@ test('a phone has room for all of it, in the dark too', async ({ page }) => {
   }
 });
 
+test('the header has room for all that it says', async ({ page }) => {
+  for (const [width, solver] of [[1200, 'southwell'], [900, 'successive'], [360, 'southwell']] as const) {
+    await page.setViewportSize({ width, height: 740 });
+    await visit(page, `${cornell.address}#solver=${solver}&speed=50`);
+    await page.reload();
+    await converged(page);
+    await expect(page.locator('#now')).toContainText('Converged');
+    const header = (await page.locator('#equation').boundingBox())!;
+    for (const id of ['title', 'formula', 'now']) {
+      const box = (await page.locator(`#${id}`).boundingBox())!;
+      const fits = box.y >= header.y && box.y + box.height <= header.y + header.height + 1;
+      expect(fits, `${id} of ${width}: ${JSON.stringify(box)} in ${JSON.stringify(header)}`).toBe(true);
+      expect(await page.locator(`#${id}`).evaluate((all) => all.scrollHeight <= all.clientHeight + 1), `${id} of ${width} is cut off`).toBe(true);
+    }
+  }
+});
+
 /** Clicks a button of those that save, and reads what comes. */
 async function saved(page: Page, name: string): Promise<Buffer> {
   const download = page.waitForEvent('download');

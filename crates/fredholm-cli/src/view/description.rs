@@ -6,10 +6,12 @@ use super::protocol::numbers;
 use super::solvers::Solver;
 use super::stage::ranges;
 use crate::radiosity::frames::exposure;
+use fredholm::value::Rgb;
 use radiosity::patches::Patches;
 use radiosity::polygon::Polygon;
 use radiosity::render::Colour;
-use radiosity::scene::{Camera, Scene, Units};
+use radiosity::scene::{Camera, Light, Scene, Sky, Units};
+use radiosity::sky;
 use radiosity::visibility::Visibility;
 use serde::Serialize;
 use std::ops::Range;
@@ -29,6 +31,8 @@ pub struct Description {
     pub surfaces: Vec<Surface>,
     /// The lamps, in the order of their factors; none where nothing can be dimmed.
     pub lamps: Vec<Dimmable>,
+    /// What is seen beyond the surfaces; none where that is nothing.
+    pub sky: Option<Beyond>,
     /// Where it is looked at from at first.
     pub camera: Viewpoint,
     /// From radiance to a screen on which 1 is white.
@@ -87,6 +91,47 @@ pub struct Surface {
     emission: [f64; 3],
 }
 
+/// A sky, as a page needs it to find its radiance in any direction.
+#[derive(Clone, Debug, Serialize)]
+pub struct Beyond {
+    /// The radiance of the zenith, in W/(m² sr) or cd/m².
+    zenith: [f64; 3],
+    /// Unit vectors.
+    up: [f64; 3],
+    towards_sun: [f64; 3],
+    /// Whether it is (1 + 2 cos Z)/3 of that of the zenith; if not, `numbers` say what it is.
+    overcast: bool,
+    /// a, b, c, d, e of the CIE's general skies.
+    numbers: [f64; 5],
+    /// The lamp that dims it; none where nothing can be dimmed.
+    lamp: Option<usize>,
+}
+
+/// The fifth of the CIE's general skies: alike in all directions.
+const ALIKE: [f64; 5] = [0.0, -1.0, 0.0, -1.0, 0.0];
+
+impl Beyond {
+    fn new<V: Colour>(sky: &Sky<V>) -> Self {
+        let model = sky.dome.model();
+        Self {
+            zenith: sky.zenith.to_rgb().0,
+            up: model.up().to_array(),
+            towards_sun: model.towards_sun().to_array(),
+            overcast: model.kind() == sky::Kind::Overcast,
+            numbers: model.kind().numbers().unwrap_or(ALIKE),
+            lamp: None,
+        }
+    }
+}
+
+/// The sky of a scene, of which a file has one at most, and its number among the lights.
+fn sky_of<V>(lights: &[Light<V>]) -> Option<(usize, &Sky<V>)> {
+    lights.iter().enumerate().find_map(|(k, light)| match light {
+        Light::Sky(sky) => Some((k, sky)),
+        Light::Point(_) | Light::Sun(_) => None,
+    })
+}
+
 /// A camera: metres, and degrees.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Viewpoint {
@@ -130,6 +175,7 @@ impl Description {
             units: Symbols::new(units),
             surfaces: surfaces.collect(),
             lamps: Vec::new(),
+            sky: sky_of(&scene.lights).map(|(_, sky)| Beyond::new(sky)),
             camera: camera.into(),
             exposure: exposure(patches, visibility).scale,
             kind: None,
@@ -138,11 +184,14 @@ impl Description {
     }
 
     /// With what a page can change.
-    pub fn with(self, discrete: &Discrete, first: Solver) -> Self {
+    pub fn with(self, discrete: &Discrete, lights: &[Light<Rgb>], first: Solver) -> Self {
+        let dims = |k: usize| discrete.lamps.iter().position(|lamp| lamp.points.contains(&k));
+        let lamp = sky_of(lights).and_then(|(k, _)| dims(k));
         let can = |solver: &Solver| discrete.is_stored || solver.shoots();
         let others = Solver::ALL.into_iter().filter(|solver| *solver != first && can(solver));
         Self {
             lamps: discrete.lamps.iter().map(Dimmable::new).collect(),
+            sky: self.sky.map(|sky| Beyond { lamp, ..sky }),
             kind: Some(discrete.kind),
             solvers: std::iter::once(first).chain(others).collect(),
             ..self

@@ -115,7 +115,7 @@ fn hall(stage: Stage, solver: Solver, port: u16) -> Result<Hall> {
         stage.how.size,
         stage.camera(),
     )
-    .with(stage.first(), solver);
+    .with(stage.first(), &stage.scene.lights, solver);
     Ok(Hall {
         description: serde_json::to_string(&described)?,
         geometry: geometry(&stage.patches.polygons),

@@ -42,6 +42,10 @@ impl<V: Value> Lit<V> for Field<'_, V> {
         points.map(at).collect()
     }
 
+    fn is_covered(&self, face: u32, point: DVec3) -> bool {
+        self.domain.is_buried(face, point)
+    }
+
     fn lights(&self) -> &[Light<V>] {
         self.domain.lights()
     }

@@ -91,11 +91,6 @@ impl<V: Value> Field<'_, V> {
         self.space.patches.iter().map(|&patch| (self.tree.node(patch).face, &self.tree.node(patch).polygon))
     }
 
-    /// Whether a point of a face is under something that stands on it, where no light comes.
-    pub fn is_covered(&self, face: u32, point: DVec3) -> bool {
-        self.domain.is_buried(face, point)
-    }
-
     /// The mesh, face by face.
     pub fn parts(&self) -> Vec<Part<V>> {
         let mut patches = self.space.patches.clone();

@@ -2,16 +2,19 @@
 //! vertices of triangles ([`VertexLight`]).
 //!
 //! Light comes straight from lamps to each texel by formula, so that shadows are as sharp as texels are; the rest is the
-//! field's. Texels beside a polygon have what is at the nearest point of it: bilinear filters never mix in what is not lit.
+//! field's. Texels beside a polygon have what is at the nearest point of it, and those under what stands on it what is beside
+//! that: bilinear filters never mix in what is not lit.
 
 mod atlas;
 mod cells;
+mod covered;
 mod patches;
 mod vertices;
 
 pub use atlas::{Atlas, Crowded};
 pub use vertices::{VertexLight, Vertices};
 
+use self::covered::uncovered;
 use crate::polygon::Polygon;
 use crate::reconstruct::Lit;
 use fredholm::value::Value;
@@ -43,7 +46,10 @@ impl<V: Value> Lightmap<V> {
             let texels = atlas.texels(k, polygon);
             let light = field.seen(&mut texels.iter().map(|(_, point)| (k as u32, *point)));
             progress(done.fetch_add(1, Ordering::Relaxed) + 1);
-            texels.into_iter().zip(light).map(|((texel, _), light)| (texel, light)).collect::<Vec<_>>()
+            let lit = texels.into_iter().zip(light).map(|((texel, point), light)| {
+                (texel, (!field.is_covered(k as u32, point)).then_some(light))
+            });
+            uncovered(lit.collect(), atlas.size)
         };
         let lit: Vec<_> = polygons.par_iter().enumerate().map(light).collect();
         let dark = vec![V::splat(0.0); atlas.size * atlas.size];

@@ -28,6 +28,9 @@ pub trait Lit<V>: Sync {
     /// curved surface ([`Polygon::with_normals`](crate::polygon::Polygon::with_normals)).
     fn seen(&self, points: &mut dyn Iterator<Item = (u32, DVec3)>) -> Vec<[V; 2]>;
 
+    /// Whether a point of a face is under something that stands on it, where no light comes.
+    fn is_covered(&self, face: u32, point: DVec3) -> bool;
+
     /// What shines on the faces and is none of them.
     fn lights(&self) -> &[Light<V>];
 }

@@ -12,14 +12,13 @@ pub(super) struct Compass {
     pub north: DVec3,
 }
 
-impl Default for Compass {
-    /// z and y, as plans of buildings have it.
-    fn default() -> Self {
-        Self { up: DVec3::Z, north: DVec3::Y }
-    }
-}
-
 impl Compass {
+    /// z and y, as plans of buildings have it.
+    pub const OF_PLANS: Self = Self { up: DVec3::Z, north: DVec3::Y };
+
+    /// y and −z: glTF says what is up, and that things look along z, which is south here.
+    pub const OF_GLTF: Self = Self { up: DVec3::Y, north: DVec3::NEG_Z };
+
     /// The unit vector at an azimuth, clockwise from north seen from above, and an elevation over the horizon, in degrees.
     pub fn towards(&self, azimuth: f64, elevation: f64) -> DVec3 {
         let (east, (sine, cosine)) = (self.north.cross(self.up), elevation.to_radians().sin_cos());
@@ -35,9 +34,10 @@ impl Compass {
 }
 
 impl Source<'_> {
-    /// The compass of a scene that may say what is up, and which way north is.
+    /// The compass of a scene that may say what is up, and which way north is; what it does not say is as usual.
     pub fn compass(
         &self,
+        usual: Compass,
         up: Option<&Spanned<[f64; 3]>>,
         north: Option<&Spanned<[f64; 3]>>,
     ) -> Result<Compass, Error> {
@@ -46,16 +46,18 @@ impl Source<'_> {
             let vector = DVec3::from(*given.get_ref()).try_normalize();
             vector.ok_or_else(|| Problem::Malformed(what).at(self.place(&given.span())))
         };
-        let usual = Compass::default();
         let up_is = up.map_or(Ok(usual.up), |up| unit(up, "up"))?;
         let north_is = north.map_or(Ok(usual.north), |north| unit(north, "north"))?;
         let flat = north_is.reject_from(up_is);
         match flat.try_normalize().filter(|_| flat.length() > LEVEL) {
             Some(north) => Ok(Compass { up: up_is, north }),
             None => {
-                let what = "`up` and `north` are along one line; give another `north`, which is [0, 1, 0] where it is not said";
+                let DVec3 { x, y, z } = usual.north;
+                let what = format!(
+                    "`up` and `north` are along one line; give another `north`, which is [{x}, {y}, {z}] where it is not said"
+                );
                 let span = north.or(up).map_or(0..0, Spanned::span);
-                Err(Problem::Malformed(what.to_owned()).at(self.place(&span)))
+                Err(Problem::Malformed(what).at(self.place(&span)))
             }
         }
     }
@@ -70,14 +72,14 @@ mod tests {
 
     #[test]
     fn azimuths_go_clockwise_from_north() {
-        let compass = Compass::default();
+        let compass = Compass::OF_PLANS;
         let near = |a: DVec3, b: DVec3| assert!(a.distance(b) < 1e-15, "{a} {b}");
         near(compass.towards(0.0, 0.0), DVec3::Y);
         near(compass.towards(90.0, 0.0), DVec3::X);
         near(compass.towards(180.0, 0.0), -DVec3::Y);
         near(compass.towards(33.0, 90.0), DVec3::Z);
-        // As glTF has it: y is up, and −z, say, north; then east is x.
-        let other = Compass { up: DVec3::Y, north: -DVec3::Z };
+        // As glTF has it: y is up, and −z north; then east is x.
+        let other = Compass::OF_GLTF;
         near(other.towards(90.0, 0.0), DVec3::X);
         near(other.towards(0.0, 30.0), DVec3::new(0.0, 0.5, -(0.75_f64.sqrt())));
     }

@@ -240,8 +240,8 @@ pub enum Problem {
     },
     /// A scene in which it is night.
     #[error(
-        "no surface emits light and no light shines, so the solution is zero; give a material a `radiance` (.toml) or a `Ke` (.mtl), or the \
-         scene a [[light]], a [[luminaire]], a [sun] or a [sky] (.toml)"
+        "no surface emits light and no light shines, so the solution is zero; give a material a `radiance` (.toml) or a `Ke` (.mtl), or \
+         name this mesh in a scene file (.toml) under `meshes`, with its `unit` and a [sky], a [sun], a [[light]] or a [[luminaire]]"
     )]
     NoLight,
     /// A surface that exchanges no heat as it is described.

@@ -4,7 +4,8 @@
 //! name = "Office"                       # optional; else the file's name
 //! unit = "mm"                           # of the meshes and of every length here: mm, cm, m, in, ft, or metres as a number
 //! meshes = ["room.obj", "desk.stl"]     # beside this file: .obj, .glb, .gltf, .stl, .ply, .vs3
-//! up = [0, 0, 1]                        # optional: this, and north = [0, 1, 0], for the sun, the sky and the camera
+//! up = [0, 0, 1]                        # optional: this, and north = [0, 1, 0], for the sun, the sky and the camera; where
+//!                                       # all meshes are glTF, which has y up, [0, 1, 0] and north = [0, 0, -1]
 //!
 //! [materials.white]                     # a material by its name in the meshes; what is not given stays as it is there
 //! reflectance = 0.8                     # or [red, green, blue]
@@ -42,7 +43,7 @@
 //! [camera]
 //! position = [1000, -3000, 1500]
 //! target = [1000, 0, 1200]              # or `direction`
-//! up = [0, 0, 1]                        # optional: this, or [0, 1, 0] for a camera that looks along z
+//! up = [0, 0, 1]                        # optional: what is up in the scene, or north for a camera that looks along it
 //! vertical_angle = 40                   # degrees
 //!
 //! [solve]                               # optional, all of it
@@ -59,7 +60,7 @@ use super::error::{Error, Place, Problem};
 use super::light::entry::LightEntry;
 use super::light::sky_entry::SkyEntry;
 use super::light::sun_entry::SunEntry;
-use super::load::{Loaded, SolveOptions, read_mesh};
+use super::load::{Loaded, SolveOptions, is_gltf, read_mesh};
 use super::luminaire::entry::LuminaireEntry;
 use super::material::{Located, Material};
 use super::mesh::{self, Assembled, Mesh};
@@ -91,7 +92,11 @@ pub(super) fn load(file: &Path, units: Option<Units>) -> Result<Loaded, Error> {
     }
     let mut lights: Vec<_> = meshes.iter().flat_map(|mesh| mesh.lights.iter().cloned()).collect();
     lights.extend(source.lights(&entry.light, metres, units)?);
-    let compass = source.compass(entry.up.as_ref(), entry.north.as_ref())?;
+    let is_gltf = entry.meshes.get_ref().iter().all(|name| is_gltf(Path::new(name.get_ref())));
+    // A scene that says that z is up has turned its meshes.
+    let is_turned = entry.up.as_ref().is_some_and(|up| up.get_ref()[2].abs() > up.get_ref()[1].abs());
+    let usual = if is_gltf && !is_turned { Compass::OF_GLTF } else { Compass::OF_PLANS };
+    let compass = source.compass(usual, entry.up.as_ref(), entry.north.as_ref())?;
     let (luminaires, told) = source.luminaires(&entry.luminaire, metres, &compass, units)?;
     lights.extend(luminaires.into_iter().map(Light::Point));
     if let Some(sun) = &entry.sun {

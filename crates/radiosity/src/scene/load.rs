@@ -6,7 +6,7 @@ use super::mesh::{self, Assembled, CleanUp, Mesh};
 use super::photometric::{self, Units};
 use super::vs3::Control;
 use super::{Scene, file, gltf, obj, ply, stl, vs3};
-use fredholm::value::Rgb;
+use fredholm::value::{Rgb, Value};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -68,9 +68,14 @@ pub fn load(path: &Path) -> Result<Loaded, Error> {
 ///
 /// As of [`load`], and when a photometric scene has colours.
 pub fn load_in(path: &Path, units: Option<Units>) -> Result<Loaded, Error> {
-    let loaded = read(path, units)?;
+    let mut loaded = read(path, units)?;
     loaded.check_masks()?;
     loaded.scene.check_light().map_err(|problem| problem.at(Place::file(path)))?;
+    if loaded.scene.surfaces.iter().all(|surface| surface.reflectance.magnitude() == 0.0) {
+        let message = "no surface reflects light, so all that does not emit is black; give materials a `reflectance` under \
+                       [materials] in a scene file (.toml)";
+        loaded.warnings.push(Warning { place: Place::file(path), message: message.to_owned() });
+    }
     Ok(loaded)
 }
 
@@ -110,12 +115,17 @@ fn bare_mesh(path: &Path, units: Units) -> Result<Loaded, Error> {
 pub(super) fn read_mesh(path: &Path, metres: f64, named_at: &Place) -> Result<Mesh, Error> {
     match extension(path).as_str() {
         "obj" => obj::read(path, metres, named_at),
-        "gltf" | "glb" => gltf::read(path, metres, named_at),
+        _ if is_gltf(path) => gltf::read(path, metres, named_at),
         "stl" => stl::read(path, metres, named_at),
         "ply" => ply::read(path, metres, named_at),
         "vs3" => vs3::read(path, metres, named_at),
         other => Err(Problem::UnknownFormat(other.to_owned()).at(named_at.clone())),
     }
+}
+
+/// Whether a mesh is glTF, by its extension.
+pub(super) fn is_gltf(path: &Path) -> bool {
+    matches!(extension(path).as_str(), "gltf" | "glb")
 }
 
 fn extension(path: &Path) -> String {

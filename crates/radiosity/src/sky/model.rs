@@ -57,7 +57,8 @@ impl Kind {
         self.numbers().is_some_and(|[_, _, c, _, e]| c != 0.0 || e != 0.0)
     }
 
-    fn numbers(self) -> Option<[f64; 5]> {
+    /// a, b, c, d and e of a general sky.
+    pub fn numbers(self) -> Option<[f64; 5]> {
         match self {
             Self::General(number) => GENERAL.get(number.wrapping_sub(1)).copied(),
             Self::Uniform | Self::Overcast => None,
@@ -79,6 +80,11 @@ impl Model {
     /// What is up.
     pub fn up(&self) -> DVec3 {
         self.up
+    }
+
+    /// Where the sun is, a unit vector; it says nothing where the sun does not matter.
+    pub fn towards_sun(&self) -> DVec3 {
+        self.sun
     }
 
     /// The radiance from a direction, a unit vector towards the sky, as a part of that of the zenith; nothing below the horizon.

@@ -1,10 +1,10 @@
 //! glTF: the same solid by every way of writing it, materials and textures, lights, a camera, and what is wrong told.
 
-use crate::write::{Mesh, cube, triangulated};
+use crate::write::{Mesh, binary_stl, cube, triangulated};
 use crate::{folder, read};
 use fredholm::value::Spectrum;
 use glam::DVec3;
-use radiosity::scene::{CleanUp, Distribution, Light, Loaded, PointLight, Spot, load_unlit};
+use radiosity::scene::{CleanUp, Distribution, Light, Loaded, PointLight, Spot, load, load_unlit};
 use std::f64::consts::PI;
 
 /// A file with one node of one mesh, whose pieces can be exchanged.
@@ -259,10 +259,9 @@ fn materials_are_reflectance_and_radiance() {
     {
         assert!(told.contains(words), "{told}");
     }
-    let mut white = cube_scene();
-    with_material(&mut white, "\"name\":\"chalk\",\"pbrMetallicRoughness\":{\"metallicFactor\":0}", "");
-    let message = read("gltf_materials", "a.glb", &white.glb()).unwrap_err().to_string();
-    assert!(message.contains("a.glb: the reflectance of material `chalk` is 1 in channel 1"), "{message}");
+    let (reflectance, _, told) = of("\"name\":\"chalk\",\"pbrMetallicRoughness\":{\"metallicFactor\":0}");
+    assert_eq!(reflectance, [0.95; 3]);
+    assert!(told.contains("a.glb: the material `chalk` has the reflectance 1 in some colour"), "{told}");
     // A scene file has the last word.
     let toml = "unit = 'm'\nmeshes = ['a.glb']\n[materials.chalk]\nreflectance = 0.7\n";
     std::fs::write(folder("gltf_materials").join("a.toml"), toml).unwrap();
@@ -491,4 +490,42 @@ fn what_is_wrong_is_told_in_a_line() {
             assert!(message.contains(word), "no `{word}` in: {message}");
         }
     }
+}
+
+#[test]
+fn a_sky_is_above_what_gltf_calls_up_and_meshes_that_are_all_black_are_told() {
+    let folder = folder("gltf_sky");
+    let mut steel = cube_scene();
+    with_material(&mut steel, "\"name\":\"steel\"", "");
+    std::fs::write(folder.join("a.glb"), steel.glb()).unwrap();
+    std::fs::write(folder.join("b.stl"), binary_stl(&triangulated(&cube()), "")).unwrap();
+    let of = |meshes: &str, rest: &str| {
+        let text = format!(
+            "unit = 'm'\nmeshes = [{meshes}]\n{rest}\n[sun]\nazimuth = 90\nelevation = 0\nnormal_irradiance = 9\n\
+             [sky]\nkind = 'uniform'\nzenith_radiance = 1\n"
+        );
+        std::fs::write(folder.join("a.toml"), text).unwrap();
+        let loaded = load(&folder.join("a.toml")).unwrap();
+        let (mut up, mut west) = (DVec3::ZERO, DVec3::ZERO);
+        for light in &loaded.scene.lights {
+            match light {
+                Light::Sky(sky) => up = sky.dome.model().up(),
+                Light::Sun(sun) => west = sun.direction,
+                Light::Point(_) => (),
+            }
+        }
+        let told: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
+        (up, west.distance(DVec3::NEG_X) < 1e-12, told.join("\n"))
+    };
+    let (up, is_east, told) = of("'a.glb'", "");
+    assert_eq!((up, is_east), (DVec3::Y, true));
+    assert!(told.contains("a.toml: no surface reflects light") && told.contains("[materials]"), "{told}");
+    // Where others are with it z is up, and where it is said; so is what y is.
+    let (up, is_east, told) = of("'a.glb', 'b.stl'", "");
+    assert_eq!((up, is_east, told.contains("no surface reflects")), (DVec3::Z, true, false), "{told}");
+    assert_eq!(of("'a.glb'", "up = [0, 0, 1]").0, DVec3::Z);
+    let (up, is_east, _) = of("'a.glb'", "up = [0, 1, 0]");
+    assert_eq!((up, is_east), (DVec3::Y, true));
+    // A reflectance that is said is one.
+    assert!(!of("'a.glb'", "[materials.steel]\nreflectance = 0.5").2.contains("no surface reflects"));
 }

@@ -1,4 +1,6 @@
 //! ρ = base (1 − metallic) and E = π × emissive: of a material, or of each triangle where pictures or vertices paint it.
+//!
+//! White is 1 in these files, and no surface returns all light: ρ = 1 is taken to be 0.95, and told.
 
 use super::bytes::Data;
 use super::texture::{Coding, Texels, Texture};
@@ -9,6 +11,7 @@ use ::gltf::Document;
 use ::gltf::material::AlphaMode;
 use ::gltf::texture::Info;
 use fredholm::value::Spectrum;
+use std::cell::Cell;
 use std::collections::{BTreeSet, HashMap};
 use std::f64::consts::PI;
 use std::path::Path;
@@ -24,6 +27,8 @@ pub(super) struct Paint {
     emission: [f64; 3],
     /// Of the base colour, of metal, and of the emission.
     textures: [Option<Texture>; 3],
+    /// Whether a triangle of it would return all light of some colour.
+    is_white: Cell<bool>,
 }
 
 /// What a vertex says of its paint.
@@ -65,8 +70,18 @@ impl Paints {
             metallic: 0.0,
             emission: [0.0; 3],
             textures: [None, None, None],
+            is_white: Cell::new(false),
         };
         Ok(Self { paints, plain: Rc::new(plain) })
+    }
+
+    /// Says which materials are white as no surface is, once all triangles are painted.
+    pub fn tell_white(&self, mesh: &mut Mesh) {
+        let white = self.paints.iter().filter(|paint| paint.is_white.get());
+        let names: Vec<String> = white.filter_map(|paint| paint.name.clone()).collect();
+        let what =
+            format!("has the reflectance 1 in some colour, as no surface has: it is taken to be {WHITEST}");
+        tell(mesh, &names, &what);
     }
 
     /// Of a primitive's material; without one it is grey, as faces of every format are.
@@ -116,7 +131,8 @@ impl Paint {
             pictures.texture(metal)?,
             pictures.texture(glowing)?,
         ];
-        Ok(Self { name: Some(name), base: [red, green, blue], metallic, emission, textures })
+        let (base, is_white) = ([red, green, blue], Cell::new(false));
+        Ok(Self { name: Some(name), base, metallic, emission, textures, is_white })
     }
 
     /// Which coordinates its textures go by.
@@ -140,7 +156,9 @@ impl Paint {
         let vertices = [0, 1, 2].map(|c| corners.iter().map(|corner| corner.colour[c]).sum::<f64>() / 3.0);
         let base = [0, 1, 2].map(|c| self.base[c] * picture[c] * vertices[c]);
         // Metal is the blue channel; where it differs within a triangle the product of means is not the mean of products.
-        let mut material = self.material(base, glow, self.metallic * metal[2], file);
+        let metallic = self.metallic * metal[2];
+        self.look_for_white(base, metallic);
+        let mut material = self.material(base, glow, metallic, file);
         let mut key = [0; 6];
         for (k, located) in [(0, &mut material.reflectance), (3, &mut material.emission)] {
             let Some(located) = located else { continue };
@@ -155,12 +173,31 @@ impl Paint {
         Ok((key, material))
     }
 
+    /// Takes note of triangles that all have the base colour.
+    pub fn used_as_it_is(&self) {
+        self.look_for_white(self.base, self.metallic);
+    }
+
+    fn look_for_white(&self, base: [f64; 3], metallic: f64) {
+        self.is_white
+            .set(self.is_white.get() || base.iter().any(|channel| is_all(channel * (1.0 - metallic))));
+    }
+
     fn material(&self, base: [f64; 3], glow: [f64; 3], metallic: f64, file: &Path) -> Material {
         let located = |value: [f64; 3]| Some(Located { value: Spectrum(value), place: Place::file(file) });
         let reflectance = base.map(|channel| channel * (1.0 - metallic));
+        let reflectance = reflectance.map(|rho| if is_all(rho) { WHITEST } else { rho });
         let emission = [0, 1, 2].map(|c| self.emission[c] * glow[c]);
         Material { reflectance: located(reflectance), emission: located(emission), power: None }
     }
+}
+
+/// What a reflectance of 1 is taken for: more than paint and paper have, and less than would take a hundred bounces to die out.
+const WHITEST: f64 = 0.95;
+
+/// Whether a reflectance is 1, as near as colours are told from each other.
+fn is_all(reflectance: f64) -> bool {
+    (reflectance - 1.0).abs() < 0.5 * STEP
 }
 
 /// Reflectances of one surface: twice as fine as pictures of 8 bits a channel.
@@ -197,15 +234,23 @@ impl Told {
                 "double-sided: its faces emit and reflect on the front alone, and block on both sides",
             ),
             (self.transparent, "transparent: it is taken to be opaque"),
-            (self.metal, "metal, which reflects no light diffusely: its reflectance is 0"),
+            (
+                self.metal,
+                "metal, which reflects no light diffusely: its reflectance is 0 unless a scene file (.toml) gives it one \
+                 under [materials]",
+            ),
             (self.unlit, "unlit: it is taken for a paint of its base colour"),
         ] {
-            let Some(first) = names.first() else { continue };
-            let first: String = first.chars().filter(|c| !c.is_control()).take(60).collect();
-            let more =
-                if names.len() > 1 { format!(" (and {} more)", names.len() - 1) } else { String::new() };
-            let place = Place::file(&mesh.file);
-            mesh.warn(place, format!("the material `{first}`{more} is {what}"));
+            tell(mesh, &names, &format!("is {what}"));
         }
     }
+}
+
+/// Says something of the first of some materials, and how many more it is true of.
+fn tell(mesh: &mut Mesh, names: &[String], what: &str) {
+    let Some(first) = names.first() else { return };
+    let first: String = first.chars().filter(|c| !c.is_control()).take(60).collect();
+    let more = if names.len() > 1 { format!(" (and {} more)", names.len() - 1) } else { String::new() };
+    let place = Place::file(&mesh.file);
+    mesh.warn(place, format!("the material `{first}`{more} {what}"));
 }

@@ -120,6 +120,7 @@ impl Reader<'_> {
     /// The mesh, with a word on what was passed over.
     fn finished(mut self, document: &Document) -> Mesh {
         let file = self.file();
+        self.paints.tell_white(&mut self.mesh);
         let mut tell = |message: String| self.mesh.warn(file.clone(), message);
         if document.scenes().len() > 1 {
             tell(format!("one of {} scenes is read, the default one", document.scenes().len()));

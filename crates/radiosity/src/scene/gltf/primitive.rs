@@ -51,12 +51,16 @@ impl Reader<'_> {
         let mirrors = here.determinant() < 0.0;
         let material =
             paint.name.as_ref().map(|name| MaterialName { name: name.clone(), place: self.file() });
+        let varies = paint.varies(vertices.colours.is_some());
+        if !varies {
+            paint.used_as_it_is();
+        }
         let mut groups = HashMap::new();
         for &[i, j, k] in triangles {
             let corners = if mirrors { [i, k, j] } else { [i, j, k] };
             self.triangles += 1;
             let spot = Spot::Triangle(self.triangles);
-            let painted = if paint.varies(vertices.colours.is_some()) {
+            let painted = if varies {
                 let at = |problem: Problem| problem.at(Place::spot(&self.mesh.file, spot));
                 Some(paint.of_triangle(&corners.map(|k| vertices.vertex(k)), &self.mesh.file).map_err(at)?)
             } else {

@@ -161,10 +161,8 @@ impl<'a> Reader<'a> {
             return Err(Problem::NoFaces.at(file()));
         }
         let name = entry.name.unwrap_or_else(|| super::load::file_name(self.source.file));
-        let camera = entry
-            .camera
-            .map(|camera| self.source.camera(&camera, metres, &Compass::default()))
-            .transpose()?;
+        let camera =
+            entry.camera.map(|camera| self.source.camera(&camera, metres, &Compass::OF_PLANS)).transpose()?;
         let scene = Scene { name, surfaces: shapes, lights: Vec::new(), camera };
         let solve =
             SolveOptions { patch_size: entry.solve.patch_size.map(|size| size * metres), ..entry.solve };
