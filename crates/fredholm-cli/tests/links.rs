@@ -126,5 +126,5 @@ fn a_checkpoint_that_is_none_or_another_is_refused() {
     refused("empty.links", "no checkpoint of fredholm");
     refused("missing.links", "missing.links");
     let output = fredholm(&folder, "radiosity --operator dense --checkpoint a.links");
-    assert!(text(&output.stderr).contains("1000 --operator hierarchical"), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).contains("--operator hierarchical"), "{}", text(&output.stderr));
 }
