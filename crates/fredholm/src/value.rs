@@ -39,6 +39,11 @@ pub trait Value:
         self.channels().iter().fold(0.0, |m: f64, c| if c.abs() > m || c.is_nan() { c.abs() } else { m })
     }
 
+    /// The sum of the squares of the channels.
+    fn square(&self) -> f64 {
+        self.channels().iter().map(|c| c * c).sum()
+    }
+
     /// `function` of each channel.
     fn map(mut self, function: impl Fn(f64) -> f64) -> Self {
         self.channels_mut().iter_mut().for_each(|c| *c = function(*c));

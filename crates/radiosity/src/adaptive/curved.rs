@@ -17,9 +17,6 @@ use crate::scene::Light;
 use fredholm::value::Value;
 use glam::DVec3;
 
-/// How far the ends of rays are off the surface, as a part of the scene.
-const LIFT: f64 = 1e-7;
-
 /// What goes from point to point.
 struct Look<'a, V> {
     lamps: Lamps<'a, V>,
@@ -30,7 +27,7 @@ struct Look<'a, V> {
 impl<V: Value> Lit<V> for Field<'_, V> {
     fn seen(&self, points: &mut dyn Iterator<Item = (u32, DVec3)>) -> Vec<[V; 2]> {
         let domain = self.domain;
-        let mut look = Look { lamps: domain.lamps(), lift: LIFT * domain.extent(), view: View::default() };
+        let mut look = Look { lamps: domain.lamps(), lift: domain.rays().lift(), view: View::default() };
         let at = |(face, point): (u32, DVec3)| {
             let irradiance = if domain.faces()[face as usize].is_curved() {
                 self.irradiance_on_curve(face, point, &mut look)

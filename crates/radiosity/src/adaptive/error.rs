@@ -9,10 +9,10 @@
 
 use super::field::Field;
 use super::links::{Coarseness, Links, gathered};
-use super::refine::square;
 use super::round::SWEEPS;
 use super::space::{CHECKS, average};
 use super::tree::LEAVES;
+use crate::reconstruct::scattered;
 use fredholm::relax::{Relaxation, Stop, SuccessiveApproximation, relax};
 use fredholm::system::System;
 use fredholm::value::{Value, max_norm};
@@ -70,7 +70,7 @@ pub(super) fn bound<V: Value>(field: &Field<'_, V>) -> Bound {
         let coarse = field.gathered(face, point, view);
         let differences =
             [coarse - field.smooth_at(face, point, view), seen - coarse, seen - gathered(&links, &fours)];
-        differences.map(|difference| square(field.domain.reflectance(face) * difference))
+        differences.map(|difference| (field.domain.reflectance(face) * difference).square())
     };
     let squares: Vec<[f64; 3]> = points(field).into_par_iter().map_init(Default::default, look).collect();
     let mean = |k: usize| (squares.iter().map(|s| s[k]).sum::<f64>() / squares.len() as f64).sqrt();
@@ -103,7 +103,7 @@ fn carried<V: Value>(field: &Field<'_, V>) -> f64 {
     let stop = Stop { residual: CARRIED * max_norm(&source), sweeps: SWEEPS };
     relax(&mut relaxation, stop, |_, _, _| true);
     let carried = space.means(tree, &relaxation.solution());
-    let of_leaf = |leaf: u32| [tree.node(leaf).area * square(carried[leaf as usize]), tree.node(leaf).area];
+    let of_leaf = |leaf: u32| [tree.node(leaf).area * carried[leaf as usize].square(), tree.node(leaf).area];
     let [sum, area] = tree.leaves().map(of_leaf).fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
     (sum / area).sqrt()
 }
@@ -129,13 +129,11 @@ fn points<V: Value>(field: &Field<'_, V>) -> Vec<(u32, DVec3)> {
     let (mut face, mut end) = (0, faces[0].area());
     (0..SAMPLES)
         .map(|k| {
-            let k = k as f64 + 0.5;
-            while end < k / SAMPLES as f64 * area && face + 1 < faces.len() {
+            while end < (k as f64 + 0.5) / SAMPLES as f64 * area && face + 1 < faces.len() {
                 face += 1;
                 end += faces[face].area();
             }
-            // Multiples of the powers of the plastic number's inverse.
-            let [s, t] = [0.754_877_666_246_693, 0.569_840_290_998_053].map(|step| (k * step).fract());
+            let (s, t) = scattered(k);
             (face as u32, faces[face].point(s, t))
         })
         .collect()

@@ -3,7 +3,6 @@
 use super::domain::Domain;
 use super::error::Bound;
 use super::links::{Coarseness, Link, Looks, gathered};
-use super::refine::square;
 use super::round::Iteration;
 use super::space::{CHECKS, Space};
 use super::tree::Tree;
@@ -110,7 +109,7 @@ impl<V: Value> Field<'_, V> {
         let (mut sum, mut area) = (0.0, 0.0);
         for leaf in self.tree.leaves() {
             let node = self.tree.node(leaf);
-            sum += node.area * square(self.radiosity[leaf as usize]);
+            sum += node.area * self.radiosity[leaf as usize].square();
             area += node.area;
         }
         (sum / area).sqrt()
@@ -148,6 +147,6 @@ impl<V: Value> Field<'_, V> {
 
     /// The mean square of the residual of the k-th patch, in (W/m²)².
     pub(super) fn square_residual(&self, k: usize) -> f64 {
-        self.residuals[k].iter().map(|r| square(*r)).sum::<f64>() / CHECKS as f64
+        self.residuals[k].iter().map(|r| r.square()).sum::<f64>() / CHECKS as f64
     }
 }

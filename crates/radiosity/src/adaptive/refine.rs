@@ -27,11 +27,6 @@ pub(super) const LINKS: f64 = 0.3;
 const ROUGH: f64 = 3.0;
 const DARK: f64 = 0.05;
 
-/// The sum of the squares of the channels.
-pub(super) fn square<V: Value>(value: V) -> f64 {
-    value.channels().iter().map(|c| c * c).sum()
-}
-
 /// The patches to be cut, the worst first.
 pub(super) fn marked<V: Value>(field: &Field<'_, V>, request: &Request) -> Vec<u32> {
     let within = field.bound.discretisation + field.bound.iteration;
@@ -41,7 +36,7 @@ pub(super) fn marked<V: Value>(field: &Field<'_, V>, request: &Request) -> Vec<u
     let error = |(k, &patch): (usize, &u32)| {
         let node = field.tree.node(patch);
         let mean = field.radiosity[patch as usize];
-        let spread: f64 = node.parts.clone().map(|k| square(field.radiosity[k as usize] - mean)).sum();
+        let spread: f64 = node.parts.clone().map(|k| (field.radiosity[k as usize] - mean).square()).sum();
         (node.area * (field.square_residual(k) + SOURCE * spread / 4.0), patch)
     };
     let mut patches: Vec<(f64, u32)> = field.space.patches.iter().enumerate().map(error).collect();
@@ -122,10 +117,10 @@ pub(super) fn residuals<V: Value>(field: &Field<'_, V>) -> Vec<[V; CHECKS]> {
 pub(super) fn rough<V: Value>(field: &Field<'_, V>, accuracy: f64) -> Vec<bool> {
     let scale = field.scale();
     let is_rough = |k: usize, patch: u32| {
-        let light = square(field.radiosity[patch as usize]).sqrt().clamp(DARK * scale, scale);
+        let light = field.radiosity[patch as usize].square().sqrt().clamp(DARK * scale, scale);
         let tolerance = (ROUGH * accuracy * light).powi(2);
         field.space.is_holed(patch)
-            || field.residuals[k].iter().any(|r| square(*r) > tolerance)
+            || field.residuals[k].iter().any(|r| r.square() > tolerance)
             || steps(field, patch).any(|step| step > tolerance)
     };
     let mut rough = vec![false; field.tree.nodes.len()];
@@ -144,6 +139,6 @@ fn steps<'a, V: Value>(field: &'a Field<'_, V>, patch: u32) -> impl Iterator<Ite
     let places = (0..v.len()).flat_map(move |k| [v[k], v[k].midpoint(v[(k + 1) % v.len()])]);
     places.map(move |place: DVec3| {
         let beyond = field.tree.patch_at(node.face, place + (place - middle) * 1e-3);
-        square(rho * (field.between(patch, place) - field.between(beyond, place)))
+        (rho * (field.between(patch, place) - field.between(beyond, place))).square()
     })
 }

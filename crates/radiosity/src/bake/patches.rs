@@ -2,7 +2,7 @@
 
 use super::vertices::{VertexLight, Vertices};
 use crate::patches::{Corners, Patches};
-use crate::reconstruct::Lit;
+use crate::reconstruct::{Lit, scattered};
 use crate::scene::Scene;
 use fredholm::value::Value;
 use glam::DVec3;
@@ -39,16 +39,15 @@ impl<V: Value> VertexLight<V> {
         let step = patches.len().div_ceil(LOOKS).max(1);
         let between: Vec<usize> = (0..patches.len()).step_by(step).collect();
         let point = |i: &usize| {
-            let [s, t] = [0.754_877_666, 0.569_840_291].map(|step| (*i as f64 * step).fract());
+            let (s, t) = scattered(*i);
             (faces[*i], patches.polygons[*i].point(s, t))
         };
         let points: Vec<(u32, DVec3)> = between.iter().map(point).collect();
-        let square = |value: V| value.channels().iter().map(|c| c * c).sum::<f64>();
         let (mut off, mut reflected) = (0.0, 0.0);
         for ((i, (_, point)), [light, _]) in between.iter().zip(&points).zip(looked(&points)) {
             let linear = corners.between(patches, (*i, *point), &at_corners, at_middles[*i]);
-            off += patches.areas[*i] * square(light - linear);
-            reflected += patches.areas[*i] * square(light - patches.emission[*i]);
+            off += patches.areas[*i] * (light - linear).square();
+            reflected += patches.areas[*i] * (light - patches.emission[*i]).square();
         }
         let error = if reflected > 0.0 { (off / reflected).sqrt() } else { 0.0 };
         Self { surfaces: surfaces(scene, patches, &corners, (&at_corners, &at_middles)), error }

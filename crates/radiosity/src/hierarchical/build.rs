@@ -1,11 +1,10 @@
 //! From patches to links: a tree, then cuts, then the factors of each link.
 
 use super::block::Block;
-use super::clusters::Clusters;
+use super::clusters::{Clusters, up_to};
 use super::cut::Cuts;
 use super::factor::{Factors, Link};
 use super::kept::Kept;
-use super::sweep::Ascent;
 use super::{Hierarchical, Statistics};
 use crate::patches::Patches;
 use crate::visibility::Visibility;
@@ -87,7 +86,7 @@ impl<'a, V: Value> Plan<'a, V> {
     /// For these patches, which `visibility` is of.
     pub fn new(patches: &'a Patches<V>, visibility: &'a Visibility) -> Self {
         let clusters = Clusters::new(patches, visibility);
-        let receivers = clusters.up_to(TOGETHER);
+        let receivers = up_to(&clusters.tree, TOGETHER);
         Self { patches, visibility, clusters: Arc::new(clusters), receivers, shaped: false }
     }
 
@@ -297,7 +296,6 @@ impl<'a, V: Value> Plan<'a, V> {
                 |receiver| tree.members(receiver).to_vec(),
                 self.patches.len(),
             ),
-            ascent: Ascent::new(&self.clusters),
             clusters: Arc::clone(&self.clusters),
             blocks,
             order_of,

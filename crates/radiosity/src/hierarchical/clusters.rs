@@ -1,5 +1,6 @@
 //! Clusters of patches: near each other, and facing alike. Of each what is needed to bound and to compute what it sends.
 
+use super::sweep::Ascent;
 use crate::patches::Patches;
 use crate::polygon::Polygon;
 use crate::visibility::Visibility;
@@ -163,6 +164,7 @@ pub(super) struct Clusters {
     pub areas: Vec<f64>,
     /// The area of all patches before each place in the order of the tree, and of all, in m².
     before: Vec<f64>,
+    ascent: Ascent,
 }
 
 impl Clusters {
@@ -204,7 +206,8 @@ impl Clusters {
             *sum += areas[*patch];
             Some(*sum)
         }));
-        Self { tree, wholes: wholes.into_iter().flatten().collect(), areas, before }
+        let wholes: Vec<Whole> = wholes.into_iter().flatten().collect();
+        Self { ascent: Ascent::new(&tree, &wholes), tree, wholes, areas, before }
     }
 
     pub fn whole(&self, cluster: Cluster) -> &Whole {
@@ -242,29 +245,19 @@ impl Clusters {
 
     /// The mean over each cluster of what is given by patch, weighted by area.
     pub fn means<V: Value>(&self, values: &[V]) -> Vec<V> {
-        let mut means = vec![V::splat(0.0); self.wholes.len()];
-        for cluster in self.tree.bottom_up() {
-            means[cluster.index()] = match self.tree.children(cluster) {
-                None => values[self.tree.members(cluster)[0]],
-                Some([a, b]) => {
-                    let part = self.whole(a).area / self.whole(cluster).area;
-                    means[a.index()] * part + means[b.index()] * (1.0 - part)
-                }
-            };
-        }
-        means
+        self.ascent.means(values)
     }
+}
 
-    /// The largest clusters of at most so many patches.
-    pub fn up_to(&self, most: usize) -> Vec<Cluster> {
-        let mut found = Vec::new();
-        let mut stack: Vec<Cluster> = self.tree.root().into_iter().collect();
-        while let Some(cluster) = stack.pop() {
-            match self.tree.children(cluster) {
-                Some([a, b]) if self.tree.range(cluster).len() > most => stack.extend([b, a]),
-                _ => found.push(cluster),
-            }
+/// The largest clusters of at most so many patches.
+pub(super) fn up_to(tree: &ClusterTree<6>, most: usize) -> Vec<Cluster> {
+    let mut found = Vec::new();
+    let mut stack: Vec<Cluster> = tree.root().into_iter().collect();
+    while let Some(cluster) = stack.pop() {
+        match tree.children(cluster) {
+            Some([a, b]) if tree.range(cluster).len() > most => stack.extend([b, a]),
+            _ => found.push(cluster),
         }
-        found
     }
+    found
 }

@@ -36,8 +36,7 @@ impl<V: Value> Plan<'_, V> {
     pub fn judge(&self, source: &[V], u: &[V], light: &Light, part: f64) -> Judged {
         let (areas, rho) = (&self.patches.areas, &self.patches.reflectance);
         let total: f64 = areas.iter().sum();
-        let square = |value: V| value.channels().iter().map(|c| c * c).sum::<f64>();
-        let norm = (areas.iter().zip(u).map(|(area, u)| area * square(*u)).sum::<f64>() / total).sqrt();
+        let norm = (areas.iter().zip(u).map(|(area, u)| area * u.square()).sum::<f64>() / total).sqrt();
         if norm == 0.0 {
             return Judged::default();
         }
@@ -112,7 +111,7 @@ impl<V: Value> Plan<'_, V> {
             }
             let step = u[a] - u[b];
             let area = areas[a] + areas[b];
-            sum += area * step.channels().iter().map(|c| c * c).sum::<f64>();
+            sum += area * step.square();
             seen += area;
         }
         if seen > 0.0 { sum / seen / 6.0 } else { 0.0 }
@@ -121,9 +120,8 @@ impl<V: Value> Plan<'_, V> {
 
 /// ‖û − u‖ as residuals tell it that were looked at here and there, where so much of all light is reflected.
 pub(crate) fn told<V: Value>(residuals: &[V], reflected: f64) -> f64 {
-    let square = |value: V| value.channels().iter().map(|c| c * c).sum::<f64>();
     let count = residuals.len().max(1) as f64;
-    let squares = || residuals.iter().map(|r| square(*r));
+    let squares = || residuals.iter().map(V::square);
     let mean_square = squares().sum::<f64>() / count;
     // A few patches may have most of the error, and there are more of these than are seen, or fewer: two standard errors more.
     let spread = squares().map(|s| (s - mean_square).powi(2)).sum::<f64>() / count;
@@ -131,7 +129,7 @@ pub(crate) fn told<V: Value>(residuals: &[V], reflected: f64) -> f64 {
     let mean = residuals.iter().fold(V::splat(0.0), |sum, r| sum + *r) * count.recip();
     // Noise is lost in the next bounce, in which hundreds of links add up; what all have in common is not, and is as large as
     // it is seen to be, or could be without being seen.
-    let common = square(mean).max(mean_square / count).sqrt();
+    let common = mean.square().max(mean_square / count).sqrt();
     let carried = common * reflected / (1.0 - reflected).max(f64::EPSILON);
     (mean_square + carried * carried).sqrt()
 }

@@ -28,13 +28,11 @@ use block::Block;
 use clusters::Clusters;
 use fredholm::operator::Matrix;
 use std::sync::Arc;
-use sweep::Ascent;
 
 /// F̃, as links from patches to clusters.
 #[derive(Debug)]
 pub struct Hierarchical {
     clusters: Arc<Clusters>,
-    ascent: Ascent,
     /// In the order of the tree.
     blocks: Vec<Block>,
     /// The block that each patch receives in, and its place there.

@@ -69,7 +69,7 @@ impl<V: Value> Gather<V> for Gathering<'_, V> {
     fn group(&mut self, group: usize, u: &[V]) -> Gathered<'_, V> {
         let clusters = &self.links.clusters;
         if group == 0 {
-            self.means = self.links.ascent.means(u);
+            self.means = self.links.clusters.means(u);
         }
         let block = &self.links.blocks[group];
         let unknowns = clusters.tree.members(block.receiver());

@@ -3,8 +3,8 @@
 //! Both are done by all cores, each on a range of its own, and without a list for every block.
 
 use super::Hierarchical;
-use super::clusters::Clusters;
-use fredholm::operator::hierarchical::Cluster;
+use super::clusters::{Whole, up_to};
+use fredholm::operator::hierarchical::{Cluster, ClusterTree};
 use fredholm::value::Value;
 use rayon::prelude::*;
 
@@ -29,12 +29,11 @@ pub(super) struct Ascent {
 const TOGETHER: usize = 1024;
 
 impl Ascent {
-    pub fn new(clusters: &Clusters) -> Self {
-        let tree = &clusters.tree;
+    pub fn new(tree: &ClusterTree<6>, wholes: &[Whole]) -> Self {
         let mean = |cluster: Cluster| match tree.children(cluster) {
             None => Mean::Of(tree.members(cluster)[0] as u32),
             Some([a, b]) => {
-                let part = clusters.whole(a).area / clusters.whole(cluster).area;
+                let part = wholes[a.index()].area / wholes[cluster.index()].area;
                 Mean::Between([a, b].map(|half| half.index() as u32), part)
             }
         };
@@ -44,7 +43,7 @@ impl Ascent {
                 .last()
                 .unwrap_or(cluster)
         };
-        let parts = clusters.up_to(TOGETHER).into_iter().map(|part| (part.index(), last(part).index()));
+        let parts = up_to(tree, TOGETHER).into_iter().map(|part| (part.index(), last(part).index()));
         Self { means: tree.top_down().map(mean).collect(), parts: parts.collect() }
     }
 
@@ -88,7 +87,7 @@ impl Ascent {
 impl Hierarchical {
     /// `out` = F̃ u.
     pub(super) fn gather<V: Value>(&self, u: &[V], out: &mut [V]) {
-        self.gather_means(&self.ascent.means(u), out);
+        self.gather_means(&self.clusters.means(u), out);
     }
 
     /// What each patch gathers from means over clusters.

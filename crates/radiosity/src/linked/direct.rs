@@ -11,9 +11,6 @@ use fredholm::value::Value;
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// How far the ends of rays are off the surface, as a part of the scene.
-const LIFT: f64 = 1e-7;
-
 /// Points of a patch in which its mean is looked at, and the rays to each lamp from there.
 const POINTS: usize = 4;
 const RAYS: usize = 9;
@@ -31,11 +28,8 @@ pub(super) struct Direct<'a, V> {
 
 impl<'a, V: Value> Direct<'a, V> {
     pub fn new(scene: &'a Scene<V>, faces: &'a [Polygon], visibility: &'a Visibility) -> Self {
-        let vertices = || faces.iter().flat_map(|face| face.vertices());
-        let low = vertices().fold(DVec3::INFINITY, |low, v| low.min(*v));
-        let extent = vertices().fold(0.0, |extent: f64, v| extent.max((*v - low).max_element()));
         let lamps = Lamps::new(scene, visibility);
-        Self { faces, visibility, lights: &scene.lights, lamps, lift: LIFT * extent }
+        Self { faces, visibility, lights: &scene.lights, lamps, lift: visibility.lift() }
     }
 
     /// D at a point of a face, in W/m², about the smooth normal where it stands for a piece of a curved surface.

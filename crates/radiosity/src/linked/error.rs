@@ -3,7 +3,7 @@
 use super::field::Field;
 use crate::hierarchical::{Light, Plan, told};
 use crate::polygon::Polygon;
-use crate::reconstruct::Rotation;
+use crate::reconstruct::{Rotation, scattered};
 use fredholm::operator::hierarchical::Cluster;
 use fredholm::value::Value;
 use glam::DVec3;
@@ -22,9 +22,6 @@ pub(super) struct Error {
 /// How large the part of a patch is that stands for a point of it, as a part of its sides.
 const POINT: f64 = 0.125;
 
-/// Multiples of the powers of the plastic number's inverse fill a square evenly.
-const STEPS: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053];
-
 impl Error {
     /// Of a field that was found with links that may bring a `part`, and what patches send.
     pub fn new<V: Value>(
@@ -35,8 +32,7 @@ impl Error {
     ) -> Self {
         let patches = field.patches();
         let total: f64 = patches.areas.iter().sum();
-        let square = |value: V| value.channels().iter().map(|c| c * c).sum::<f64>();
-        let reflected = |i: usize| square(field.radiosity()[i] - patches.emission[i]);
+        let reflected = |i: usize| (field.radiosity()[i] - patches.emission[i]).square();
         let norm = (0..patches.len()).map(|i| patches.areas[i] * reflected(i)).sum::<f64>() / total;
         let (norm, rho) = (norm.sqrt(), patches.mean_reflectance());
         if norm == 0.0 {
@@ -80,7 +76,7 @@ impl Error {
 
 /// A small part of a patch, somewhere.
 fn small(patch: &Polygon, k: usize) -> Polygon {
-    let [s, t] = STEPS.map(|step| ((k as f64 + 0.5) * step).fract());
+    let (s, t) = scattered(k);
     let middle = patch.centroid().lerp(patch.point(s, t), 1.0 - POINT);
     let corners: Vec<DVec3> =
         patch.vertices().iter().map(|v| middle + (*v - patch.centroid()) * POINT).collect();

@@ -40,6 +40,9 @@ fn unit(bits: u64) -> f64 {
 /// The golden section's fractional part: the multiples of no other number are spread more evenly.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
+/// 1/ρ of the plastic number ρ, ρ³ = ρ + 1.
+const PLASTIC_ROOT: f64 = 0.754_877_666_246_692_7;
+
 /// 1/ρ² of the plastic number ρ: multiples that do not follow those of the golden section.
 const PLASTIC: f64 = 0.569_840_290_998_053_2;
 
@@ -49,6 +52,12 @@ pub(crate) fn lattice(count: usize, rotation: Rotation) -> impl Iterator<Item = 
         let (s, t) = ((i as f64 + 0.5) / count as f64, i as f64 * GOLDEN);
         ((s + rotation.s).fract(), (t + rotation.t).fract())
     })
+}
+
+/// The k-th of points of [0,1)² that fill it evenly however many there are: multiples of the powers of the plastic number's inverse.
+pub(crate) fn scattered(k: usize) -> (f64, f64) {
+    let k = k as f64 + 0.5;
+    ((k * PLASTIC_ROOT).fract(), (k * PLASTIC).fract())
 }
 
 #[cfg(test)]

@@ -17,7 +17,7 @@ pub(crate) use curved::on_surface;
 pub use direct::Lamps;
 pub use gather::{Gather, Gathered};
 pub use lattice::Rotation;
-pub(crate) use lattice::lattice;
+pub(crate) use lattice::{lattice, scattered};
 
 use crate::scene::Light;
 use glam::DVec3;

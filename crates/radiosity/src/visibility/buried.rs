@@ -6,9 +6,6 @@ use crate::reconstruct::{Rotation, lattice};
 use glam::DVec3;
 use std::f64::consts::TAU;
 
-/// How far off the surface it is looked from, in the scene's unit.
-const LIFT: f64 = 1e-7;
-
 /// Directions about the normal, and their angle to it.
 const AROUND: u32 = 8;
 const TILT: f64 = 1.0;
@@ -20,7 +17,7 @@ const PARTS: usize = 64;
 impl Visibility {
     /// Whether a point of a surface with a unit normal is within a body.
     pub fn is_buried(&self, point: DVec3, normal: DVec3) -> bool {
-        let from = point + normal * self.frame.metres(LIFT);
+        let from = point + normal * self.lift();
         let (u, v) = normal.any_orthonormal_pair();
         let sees_a_back = |(tilt, turn): (f64, f64)| {
             let direction = normal * tilt.cos() + (u * turn.cos() + v * turn.sin()) * tilt.sin();

@@ -36,6 +36,10 @@ use ray::{Blocker, Nearest, Ray};
 use shaft::Shaft;
 use std::sync::OnceLock;
 
+/// How far off a surface rays begin, in the scene's unit: a hundred times what is on it, a thousandth of what lamps hang below
+/// ceilings.
+const LIFT: f64 = 1e-7;
+
 /// May s and t see each other?
 #[derive(Clone, Debug)]
 pub struct Visibility {
@@ -75,6 +79,11 @@ impl Visibility {
         let occluders = if walls.is_empty() { all } else { Bvh::new(&occluders, &facets) };
         let walls = Bvh::new(&walls, &facets);
         Self { frame, facets, occluders, walls, cover: OnceLock::new() }
+    }
+
+    /// How far off a surface rays begin so that they do not within it, in metres.
+    pub(crate) fn lift(&self) -> f64 {
+        self.frame.metres(LIFT)
     }
 
     /// Whether any polygon can be between two points of the scene: in an empty convex room none can.
