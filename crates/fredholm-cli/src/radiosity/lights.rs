@@ -3,8 +3,9 @@
 use crate::text::{percent, short};
 use fredholm::value::Value;
 use radiosity::lights::{FAR, nearest_lit};
+use radiosity::reconstruct::Rays;
 use radiosity::scene::{Aimed, Distribution, Light, PointLight, Scene, Units};
-use radiosity::sky::Kind;
+use radiosity::sky::{self, Kind};
 use serde::Serialize;
 
 /// The lights of a scene that are no surfaces.
@@ -102,11 +103,14 @@ struct Sky {
     cells: usize,
     /// By how much it may differ from its formula in any direction, and so any irradiance from it: relative.
     largest_relative_error: f64,
+    /// The rays from each point that find how much of it is seen; none where that is found without.
+    rays: Option<usize>,
 }
 
 impl Sky {
-    fn of<V: Value>(light: &Light<V>, units: Units) -> Option<Self> {
+    fn of<V: Value>(light: &Light<V>, scene: &Scene<V>, units: Units) -> Option<Self> {
         let Light::Sky(sky) = light else { return None };
+        let polygons: usize = scene.surfaces.iter().map(|surface| surface.polygons.len()).sum();
         let kind = match sky.dome.model().kind() {
             Kind::Uniform => "uniform".to_owned(),
             Kind::Overcast => "CIE overcast (1 + 2 sin of the elevation)/3".to_owned(),
@@ -119,6 +123,7 @@ impl Sky {
             zenith_unit: units.radiance(),
             cells: sky.dome.cells(),
             largest_relative_error: sky.dome.error(),
+            rays: (polygons > sky::FEW).then_some(Rays::MANY),
         })
     }
 
@@ -126,6 +131,10 @@ impl Sky {
         let error = match self.largest_relative_error {
             rounding if rounding < 1e-9 => "exact".to_owned(),
             error => format!("to {} in any direction", percent(error)),
+        };
+        let error = match self.rays {
+            None => error,
+            Some(rays) => format!("{error}, seen by {rays} rays from a point"),
         };
         format!(
             "{}: {} on a free horizontal, {} at the zenith; {error}",
@@ -157,7 +166,7 @@ impl Lights {
             flux_unit: if units == Units::Photometric { "lm" } else { "W" },
             point_lights: points().count(),
             suns: scene.lights.iter().filter_map(sun).collect(),
-            sky: scene.lights.iter().find_map(|light| Sky::of(light, units)),
+            sky: scene.lights.iter().find_map(|light| Sky::of(light, scene, units)),
             unit: units.irradiance(),
         }
     }

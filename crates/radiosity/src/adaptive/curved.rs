@@ -12,7 +12,7 @@ use crate::form_factor::view::View;
 use crate::kernel::SurfacePoint;
 use crate::lights;
 use crate::polygon::Polygon;
-use crate::reconstruct::{Lamps, Lit, Rotation, Site, on_surface};
+use crate::reconstruct::{Lamps, Lit, Rays, Rotation, Site, on_surface};
 use crate::scene::Light;
 use fredholm::value::Value;
 use glam::DVec3;
@@ -55,9 +55,9 @@ impl<V: Value> Field<'_, V> {
             return V::splat(0.0);
         }
         let at = on_surface(flat, point, domain.rays(), look.lift);
-        let bits = point.to_array().iter().fold(0, |bits, c| bits ^ c.to_bits() as usize);
-        let site = Site { point: at.position, normal: at.normal, rotation: Rotation::of(bits) };
-        let direct = look.lamps.irradiance(&site) + lights::irradiance(domain.lights(), domain.rays(), &at);
+        let site = Site { point: at.position, normal: at.normal, rotation: Rotation::at(point) };
+        let direct = look.lamps.irradiance(&site)
+            + lights::irradiance_by(Rays::turned(site.rotation), domain.lights(), domain.rays(), &at);
         let turned = SurfacePoint { position: point, normal: at.normal };
         let from_parts =
             self.links_from(face, point, &mut look.view).iter().fold(V::splat(0.0), |sum, link| {

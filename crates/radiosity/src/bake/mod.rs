@@ -18,6 +18,7 @@ use self::covered::uncovered;
 use crate::polygon::Polygon;
 use crate::reconstruct::Lit;
 use fredholm::value::Value;
+use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -32,6 +33,9 @@ pub struct Lightmap<V> {
     pub irradiance: Vec<V>,
 }
 
+/// Texels that one thread looks at: one face may have most of them.
+const TOGETHER: usize = 4096;
+
 impl<V: Value> Lightmap<V> {
     /// Looks at the field in every texel. `polygons` are those of the field, in its order; `progress` is told how many of
     /// them are done.
@@ -44,12 +48,16 @@ impl<V: Value> Lightmap<V> {
         let done = AtomicUsize::new(0);
         let light = |(k, polygon): (usize, &Polygon)| {
             let texels = atlas.texels(k, polygon);
-            let light = field.seen(&mut texels.iter().map(|(_, point)| (k as u32, *point)));
+            let light_of = |texels: &[(usize, DVec3)]| {
+                let light = field.seen(&mut texels.iter().map(|(_, point)| (k as u32, *point)));
+                let lit = texels.iter().zip(light).map(|((texel, point), light)| {
+                    (*texel, (!field.is_covered(k as u32, *point)).then_some(light))
+                });
+                lit.collect::<Vec<_>>()
+            };
+            let lit = texels.par_chunks(TOGETHER).flat_map_iter(light_of).collect();
             progress(done.fetch_add(1, Ordering::Relaxed) + 1);
-            let lit = texels.into_iter().zip(light).map(|((texel, point), light)| {
-                (texel, (!field.is_covered(k as u32, point)).then_some(light))
-            });
-            uncovered(lit.collect(), atlas.size)
+            uncovered(lit, atlas.size)
         };
         let lit: Vec<_> = polygons.par_iter().enumerate().map(light).collect();
         let dark = vec![V::splat(0.0); atlas.size * atlas.size];

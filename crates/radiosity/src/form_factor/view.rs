@@ -127,7 +127,7 @@ impl View {
     /// The share of a part that is in sight: few rays where they agree, more where they do not.
     fn share_of_rays(&self, visibility: &Visibility, part: &Polygon) -> f64 {
         let x = SurfacePoint { position: self.x, normal: self.normal };
-        let rotation = Rotation::of(self.x.to_array().iter().fold(0, |bits, c| bits ^ c.to_bits() as usize));
+        let rotation = Rotation::at(self.x);
         let share = |rays: usize| {
             let (mut all, mut arrived) = (0.0, 0.0);
             for (s, t) in lattice(rays, rotation) {

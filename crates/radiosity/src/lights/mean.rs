@@ -7,9 +7,10 @@
 
 use super::arrives;
 use crate::form_factor::lambert::point_to_polygon;
+use crate::kernel::SurfacePoint;
 use crate::patches::Patches;
 use crate::polygon::Polygon;
-use crate::reconstruct::{Rotation, lattice};
+use crate::reconstruct::{Rays, Rotation, lattice};
 use crate::scene::{Distribution, Light, PointLight};
 use crate::sky::Dome;
 use crate::visibility::Visibility;
@@ -74,10 +75,28 @@ fn whole<V>(light: &Light<V>, polygon: &Polygon) -> f64 {
 
 /// The mean over a patch of what comes from a sky whose zenith has a radiance of 1, in sr.
 fn of_sky(dome: &Dome, visibility: &Visibility, patch: &Polygon) -> f64 {
-    let at = |point: DVec3| visibility.received_from(dome, point, patch.normal());
+    let normal = patch.normal();
+    let received = |position: DVec3, rays: Rays| {
+        visibility.received_from(dome, &SurfacePoint { position, normal }, rays)
+    };
+    if !visibility.clips_sky() {
+        let rotation = Rotation::at(patch.centroid());
+        let from = |(k, (s, t)): (usize, (f64, f64))| {
+            let rays = Rays { count: SKY_RAYS, rotation: rotation.next(k) };
+            (received(patch.point(s, t), rays) * patch.density(s, t), patch.density(s, t))
+        };
+        let points = lattice(SKY_POINTS, rotation).enumerate().map(from);
+        let [sum, area] = points.fold([0.0; 2], |[sum, area], (h, d)| [sum + h, area + d]);
+        return sum / area;
+    }
+    let at = |point: DVec3| received(point, Rays::from(point));
     let tolerance = SOFT * dome.horizontal();
     mean_of(&at, patch, at(patch.centroid()), tolerance, 0)
 }
+
+/// Points of a patch where rays go to the sky, and how many from each.
+const SKY_POINTS: usize = 16;
+const SKY_RAYS: usize = 32;
 
 /// The part of the light of a free horizontal by which the middles of a patch and of its quarters may differ, a third of which is
 /// left; the light of a sky has soft edges, so that so many cuts in four are enough.

@@ -8,6 +8,7 @@ pub use far::{FAR, nearest_lit};
 pub use mean::mean_irradiances;
 
 use crate::kernel::SurfacePoint;
+use crate::reconstruct::Rays;
 use crate::scene::{Light, PointLight, Sun};
 use crate::visibility::Visibility;
 use fredholm::value::Value;
@@ -22,18 +23,30 @@ pub fn beyond<V: Value>(lights: &[Light<V>], direction: DVec3) -> V {
 }
 
 /// The irradiance at a point from lights that nothing hides from it, in W/m² or lx: exact, with one ray to each point or sun, and
-/// of a sky as near as [`Dome::error`](crate::sky::Dome::error) says.
+/// of a sky as near as [`Dome::error`](crate::sky::Dome::error) says where polygons are few ([`Visibility::clips_sky`]); of many
+/// 256 rays find how much of it is seen, mostly to half a hundredth of the light of all of it.
 pub fn irradiance<V: Value>(lights: &[Light<V>], visibility: &Visibility, at: &SurfacePoint) -> V {
-    lights.iter().fold(V::splat(0.0), |sum, light| sum + light.amount() * received(light, visibility, at))
+    irradiance_by(Rays::from(at.position), lights, visibility, at)
+}
+
+/// The same by rays of one's own, if it is by rays.
+pub(crate) fn irradiance_by<V: Value>(
+    rays: Rays,
+    lights: &[Light<V>],
+    visibility: &Visibility,
+    at: &SurfacePoint,
+) -> V {
+    let sent = |light: &Light<V>| light.amount() * received(light, visibility, at, rays);
+    lights.iter().fold(V::splat(0.0), |sum, light| sum + sent(light))
 }
 
 /// The irradiance from a light of amount 1: cosθ/r² times the part of the intensity that goes there in sr/m², or cosθ, or what is
 /// seen of the sky in sr.
-fn received<V>(light: &Light<V>, visibility: &Visibility, at: &SurfacePoint) -> f64 {
+fn received<V>(light: &Light<V>, visibility: &Visibility, at: &SurfacePoint, rays: Rays) -> f64 {
     let part = match light {
         Light::Point(light) => of_point(light, at),
         Light::Sun(sun) => (-sun.direction).dot(at.normal).max(0.0),
-        Light::Sky(sky) => return visibility.received_from(&sky.dome, at.position, at.normal),
+        Light::Sky(sky) => return visibility.received_from(&sky.dome, at, rays),
     };
     if part > 0.0 && arrives(light, visibility, at.position) { part } else { 0.0 }
 }

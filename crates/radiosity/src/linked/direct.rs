@@ -4,7 +4,7 @@ use crate::kernel::SurfacePoint;
 use crate::lights;
 use crate::patches::Patches;
 use crate::polygon::Polygon;
-use crate::reconstruct::{Lamps, Rotation, Site, lattice, on_surface};
+use crate::reconstruct::{Lamps, Rays, Rotation, Site, lattice, on_surface};
 use crate::scene::{Light, Scene};
 use crate::visibility::Visibility;
 use fredholm::value::Value;
@@ -42,7 +42,7 @@ impl<'a, V: Value> Direct<'a, V> {
         };
         let site = Site { point: at.position, normal: at.normal, rotation };
         let from_lamps = self.lamps.as_ref().map_or(V::splat(0.0), |lamps| lamps.irradiance(&site));
-        from_lamps + lights::irradiance(self.lights, self.visibility, &at)
+        from_lamps + lights::irradiance_by(Rays::turned(rotation), self.lights, self.visibility, &at)
     }
 
     /// The mean of D over each patch, in W/m².

@@ -96,9 +96,8 @@ impl<'a, V: Value> Field<'a, V> {
 impl<V: Value> Lit<V> for Field<'_, V> {
     fn seen(&self, points: &mut dyn Iterator<Item = (u32, DVec3)>) -> Vec<[V; 2]> {
         let at = |(face, point): (u32, DVec3)| {
-            let bits = point.to_array().iter().fold(0, |bits, c| bits ^ c.to_bits() as usize);
             let patch = self.patches.patch_at(face, point);
-            let irradiance = self.irradiance_at(face, point, Rotation::of(bits));
+            let irradiance = self.irradiance_at(face, point, Rotation::at(point));
             [self.patches.emission[patch] + self.patches.reflectance[patch] * irradiance, irradiance]
         };
         points.map(at).collect()

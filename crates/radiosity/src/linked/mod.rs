@@ -145,12 +145,12 @@ fn solved<'a, V: Value>(
     request: &Request,
 ) -> Result<Field<'a, V>, LinkedError> {
     let patches = Patches::new(scene, size_for_count(scene, count))?;
-    let exposed: Vec<f64> =
+    let mut exposed: Vec<f64> =
         patches.polygons.par_iter().map(|patch| direct.visibility.exposed(patch)).collect();
     let lit = direct.means(&patches);
     // Of a patch that something stands on the rest has more of the light, and sends all of it.
     let mut open = patches.clone();
-    open.reflectance.iter_mut().zip(&exposed).for_each(|(rho, part)| *rho = *rho * inverse(*part));
+    open.reflectance = reflected(&patches, &exposed);
     let source = direct.source(&open, &lit);
     let plan = Plan::new(&open, direct.visibility).shaped();
     let light = plan.sketched(&source, &lit, part, SEEDS[0])?;
@@ -159,16 +159,31 @@ fn solved<'a, V: Value>(
         return Err(LinkedError::Memory { patches: patches.len(), needed, available });
     }
     let operator = plan.assemble(&light, part, SEEDS[1], |_| ());
-    let mut relaxation = Gmres::new(System::new(&source, &open.reflectance, &operator)?);
+    let mut arriving = vec![V::splat(0.0); patches.len()];
+    operator.apply(&vec![V::splat(1.0); patches.len()], &mut arriving);
+    widen(&mut exposed, &arriving);
+    let reflectance = reflected(&patches, &exposed);
+    let mut relaxation = Gmres::new(System::new(&source, &reflectance, &operator)?);
     let stop = Stop { residual: RESIDUAL * request.accuracy * max_norm(&source), sweeps: SWEEPS };
     let report = relax(&mut relaxation, stop, |_, _, _| true);
     let sent = relaxation.solution();
-    let mut arriving = vec![V::splat(0.0); sent.len()];
     operator.apply(&sent, &mut arriving);
     let links = operator.statistics().links as usize;
     let mut field = Field::new(direct, patches, (lit, arriving, &exposed), links);
     field.error = Error::new(&field, &plan, (&sent, &light, part), report.residual);
     Ok(field)
+}
+
+/// No patch sees more than is open of it: where the rays of links found more (the sums of its row) than points of the patch did, what
+/// they found is open. Otherwise a sliver of which they find too much would reflect more than it gets.
+fn widen<V: Value>(exposed: &mut [f64], sums: &[V]) {
+    let open = exposed.iter_mut().zip(sums).filter(|(part, _)| **part > 0.0);
+    open.for_each(|(part, sum)| *part = part.max(sum.magnitude()));
+}
+
+/// What the open parts of patches reflect, of the mean that arrives at all of them.
+fn reflected<V: Value>(patches: &Patches<V>, exposed: &[f64]) -> Vec<V> {
+    patches.reflectance.iter().zip(exposed).map(|(rho, part)| *rho * inverse(*part)).collect()
 }
 
 /// 1 over a part that is not buried; 0 where all is.
@@ -178,3 +193,15 @@ fn inverse(exposed: f64) -> f64 {
 
 /// Sweeps of the iteration; whatever converges in use needs far fewer.
 const SWEEPS: usize = 1000;
+
+#[cfg(test)]
+mod tests {
+    use super::widen;
+
+    #[test]
+    fn a_sliver_reflects_no_more_than_it_gets() {
+        let mut exposed = [0.02, 0.6, 0.0];
+        widen(&mut exposed, &[0.5, 0.5, 0.3]);
+        assert_eq!(exposed, [0.5, 0.6, 0.0]);
+    }
+}

@@ -7,7 +7,7 @@ use crate::kernel::SurfacePoint;
 use crate::lights;
 use crate::patches::Patches;
 use crate::polygon::Polygon;
-use crate::reconstruct::{Lamps, Site, lattice};
+use crate::reconstruct::{Lamps, Rays, Site, lattice};
 use crate::visibility::Visibility;
 use fredholm::value::Value;
 use glam::DVec3;
@@ -64,7 +64,8 @@ impl<V: Value> Gather<'_, V> {
     fn radiosity_at(&self, site: &Site, patch: usize) -> V {
         let gathered = self.mean_of_rays(site, NEAR_RAYS, |gather, _, patch, _| gather.radiosity[patch]);
         let reflectance = self.patches.reflectance[patch];
-        let irradiance = gathered.irradiance + self.of_points(site);
+        let irradiance =
+            gathered.irradiance + self.of_points(site, Rays { count: NEAR_RAYS, rotation: site.rotation });
         match &self.lamps {
             Some(lamps) => reflectance * (irradiance + lamps.roughly(site, NEAR_RAYS)),
             None => self.patches.emission[patch] + reflectance * irradiance,
@@ -75,12 +76,12 @@ impl<V: Value> Gather<'_, V> {
     /// on their own.
     pub fn direct(&self, site: &Site) -> V {
         let lamps = self.lamps.as_ref().map_or(V::splat(0.0), |lamps| lamps.irradiance(site));
-        lamps + self.of_points(site)
+        lamps + self.of_points(site, Rays::turned(site.rotation))
     }
 
-    fn of_points(&self, site: &Site) -> V {
+    fn of_points(&self, site: &Site, rays: Rays) -> V {
         let at = SurfacePoint { position: site.point, normal: site.normal };
-        lights::irradiance(&self.patches.lights, self.visibility, &at)
+        lights::irradiance_by(rays, &self.patches.lights, self.visibility, &at)
     }
 
     /// The mean of what `seen` at the ends of the rays: (self, end, patch, length).

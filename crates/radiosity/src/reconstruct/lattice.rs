@@ -1,5 +1,7 @@
 //! x_i = (i/n, {i/φ}): points that fill the unit square evenly, for any number of them.
 
+use glam::DVec3;
+
 /// A rotation of the lattice on its torus, so that neighbouring pixels make different errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rotation {
@@ -17,10 +19,39 @@ impl Rotation {
         Self { s: unit(bits >> 32), t: unit(bits & 0xffff_ffff) }
     }
 
+    /// The rotation of a point: another one beside it.
+    pub fn at(point: DVec3) -> Self {
+        Self::of(point.to_array().iter().fold(0, |bits, c| bits ^ c.to_bits() as usize))
+    }
+
     /// The rotation where the `index`-th ray from here ends.
     pub fn next(self, index: usize) -> Self {
         let along = (index + 1) as f64;
         Self { s: (self.s + along * GOLDEN).fract(), t: (self.t + along * PLASTIC).fract() }
+    }
+}
+
+/// Rays that are spread over something.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rays {
+    /// How many.
+    pub count: usize,
+    /// Of the lattice that spreads them.
+    pub rotation: Rotation,
+}
+
+impl Rays {
+    /// So many that the light of a sky is right to some thousandths of that of all of it.
+    pub const MANY: usize = 256;
+
+    /// Many from a point.
+    pub fn from(point: DVec3) -> Self {
+        Self::turned(Rotation::at(point))
+    }
+
+    /// The same, of a rotation.
+    pub fn turned(rotation: Rotation) -> Self {
+        Self { count: Self::MANY, rotation }
     }
 }
 

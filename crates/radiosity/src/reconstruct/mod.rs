@@ -16,7 +16,7 @@ mod lattice;
 pub(crate) use curved::on_surface;
 pub use direct::Lamps;
 pub use gather::{Gather, Gathered};
-pub use lattice::Rotation;
+pub use lattice::{Rays, Rotation};
 pub(crate) use lattice::{lattice, scattered};
 
 use crate::scene::Light;

@@ -25,11 +25,6 @@ impl<V: Value> Scene<V> {
             return Err(Problem::NoFaces);
         }
         (1..).zip(&self.lights).try_for_each(|(number, given)| light(number, given))?;
-        let polygons: usize = self.surfaces.iter().map(|surface| surface.polygons.len()).sum();
-        let has_sky = self.lights.iter().any(|light| matches!(light, Light::Sky(_)));
-        if has_sky && polygons > MOST_UNDER_A_SKY {
-            return Err(Problem::TooManyUnderASky { polygons, most: MOST_UNDER_A_SKY });
-        }
         self.camera.as_ref().map_or(Ok(()), Camera::check)
     }
 
@@ -41,9 +36,6 @@ impl<V: Value> Scene<V> {
         Ok(())
     }
 }
-
-/// From every point it is asked of every polygon what it hides of the sky: of so many that takes a millisecond.
-const MOST_UNDER_A_SKY: usize = 20_000;
 
 fn surface<V: Value>(surface: &Surface<V>) -> Result<(), Problem> {
     let owner = format!("surface `{}`", surface.name);

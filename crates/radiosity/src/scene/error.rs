@@ -227,17 +227,6 @@ pub enum Problem {
     /// A scene without faces.
     #[error("the scene has no faces; export the mesh with its faces, or name other meshes")]
     NoFaces,
-    /// A sky over more than can be asked what they hide of it.
-    #[error(
-        "the scene has a sky and {polygons} polygons, of each of which it is asked what it hides of the sky; {most} are the most: \
-         simplify the meshes"
-    )]
-    TooManyUnderASky {
-        /// How many there are.
-        polygons: usize,
-        /// How many there may be.
-        most: usize,
-    },
     /// A scene in which it is night.
     #[error(
         "no surface emits light and no light shines, so the solution is zero; give a material a `radiance` (.toml) or a `Ke` (.mtl), or \

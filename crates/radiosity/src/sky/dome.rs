@@ -3,6 +3,7 @@
 
 use super::model::Model;
 use super::moments::Affine;
+use super::rays::{self, Target};
 use glam::{DMat4, DVec3, DVec4};
 
 /// A sky as it is integrated, with the radiance of its zenith for a unit.
@@ -10,6 +11,8 @@ use glam::{DMat4, DVec3, DVec4};
 pub struct Dome {
     model: Model,
     pub(super) cells: Vec<Cell>,
+    /// What rays go to.
+    pub(super) targets: Vec<Target>,
     error: f64,
 }
 
@@ -47,7 +50,7 @@ impl Dome {
         let around = [x, y, -x, -y];
         let roots = (0..ROOTS).map(|k| ([around[k], around[(k + 1) % ROOTS], up], 0));
         let mut waiting: Vec<([DVec3; 3], u32)> = roots.collect();
-        let mut dome = Self { model, cells: Vec::new(), error: 0.0 };
+        let mut dome = Self { model, cells: Vec::new(), targets: Vec::new(), error: 0.0 };
         let mut next = 0;
         while let Some(&(corners, cuts)) = waiting.get(next) {
             next += 1;
@@ -70,6 +73,7 @@ impl Dome {
                 dome.cells[k].moment = dome.cells[first..first + 4].iter().map(|part| part.moment).sum();
             }
         }
+        dome.targets = rays::targets(&dome);
         dome
     }
 

@@ -11,8 +11,13 @@ pub(crate) mod cover;
 mod dome;
 mod model;
 mod moments;
+mod rays;
 mod view;
 
 pub use dome::Dome;
 pub use model::{Kind, Model};
+pub(crate) use rays::received_by_rays;
 pub(crate) use view::received;
+
+/// Polygons up to which what they hide of a sky is clipped away.
+pub const FEW: usize = 64;

@@ -179,7 +179,7 @@ fn within(dome: &Dome, cell: usize, piece: &Outline, inner: &[DVec3]) -> DVec3 {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::super::model::{Kind, Model};
     use super::*;
     use crate::polygon::Polygon;
@@ -204,6 +204,30 @@ mod tests {
         ]
     }
 
+    /// A floor with boxes, a leaning triangle and a picket fence.
+    pub(crate) fn yard() -> Vec<Polygon> {
+        let mut polygons = vec![Polygon::quadrilateral(
+            p(-9.0, -9.0, 0.0),
+            p(9.0, -9.0, 0.0),
+            p(9.0, 9.0, 0.0),
+            p(-9.0, 9.0, 0.0),
+        )];
+        polygons.extend(box_of(p(1.0, -2.0, 0.0), p(3.0, 1.0, 4.0)));
+        polygons.extend(box_of(p(-3.0, 2.0, 0.0), p(2.5, 3.0, 2.0)));
+        polygons.extend(box_of(p(-2.0, -2.0, 2.0), p(0.5, 0.5, 2.2)));
+        polygons.push(Polygon::triangle(p(-4.0, -1.0, 0.5), p(-2.5, 1.0, 1.0), p(-3.5, 0.0, 3.0)));
+        polygons.extend((0..30).map(|k| {
+            let y = -3.0 + 0.2 * f64::from(k);
+            Polygon::quadrilateral(
+                p(-5.0, y, 0.0),
+                p(-5.0, y + 0.1, 0.0),
+                p(-5.0, y + 0.1, 3.0),
+                p(-5.0, y, 3.0),
+            )
+        }));
+        polygons
+    }
+
     /// The same by rays in a fine grid of azimuth and sin² of the elevation over the surface.
     fn by_rays(dome: &Dome, polygons: &[Polygon], point: DVec3, normal: DVec3) -> f64 {
         let visibility = Visibility::new(polygons);
@@ -223,26 +247,7 @@ mod tests {
 
     #[test]
     fn what_is_clipped_is_what_rays_find() {
-        let mut polygons = vec![Polygon::quadrilateral(
-            p(-9.0, -9.0, 0.0),
-            p(9.0, -9.0, 0.0),
-            p(9.0, 9.0, 0.0),
-            p(-9.0, 9.0, 0.0),
-        )];
-        polygons.extend(box_of(p(1.0, -2.0, 0.0), p(3.0, 1.0, 4.0)));
-        polygons.extend(box_of(p(-3.0, 2.0, 0.0), p(2.5, 3.0, 2.0)));
-        polygons.extend(box_of(p(-2.0, -2.0, 2.0), p(0.5, 0.5, 2.2)));
-        // A leaning triangle, and a picket fence of many.
-        polygons.push(Polygon::triangle(p(-4.0, -1.0, 0.5), p(-2.5, 1.0, 1.0), p(-3.5, 0.0, 3.0)));
-        polygons.extend((0..30).map(|k| {
-            let y = -3.0 + 0.2 * f64::from(k);
-            Polygon::quadrilateral(
-                p(-5.0, y, 0.0),
-                p(-5.0, y + 0.1, 0.0),
-                p(-5.0, y + 0.1, 3.0),
-                p(-5.0, y, 3.0),
-            )
-        }));
+        let polygons = yard();
         let cover = Cover::new(&polygons, 1e-9);
         let places = [
             (p(0.3, 0.2, 0.0), DVec3::Z),

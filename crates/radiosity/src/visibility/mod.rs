@@ -24,7 +24,9 @@ mod walls;
 
 pub use count::{Count, RayCount};
 
+use crate::kernel::SurfacePoint;
 use crate::polygon::Polygon;
+use crate::reconstruct::Rays;
 use crate::sky::cover::Cover;
 use crate::sky::{self, Dome};
 use beam::{Beam, MOST};
@@ -131,7 +133,11 @@ impl Visibility {
 
     /// Whether no polygon at all cuts the open segment from s to t, wherever these are: beyond the walls too.
     pub fn is_clear(&self, s: DVec3, t: DVec3) -> bool {
-        let (s, t) = (self.frame.point(s), self.frame.point(t));
+        self.is_clear_within(self.frame.point(s), self.frame.point(t))
+    }
+
+    /// The same of two points of the frame.
+    fn is_clear_within(&self, s: DVec3, t: DVec3) -> bool {
         let Some(ray) = Ray::new(s, t) else { return true };
         let mut query = Blocker { facets: &self.facets, s, t, ray, found: None };
         self.occluders.walk(&mut query);
@@ -142,8 +148,11 @@ impl Visibility {
     }
 
     /// The irradiance at a point of a surface with a unit normal from what the polygons leave of a sky, in sr: its zenith has a
-    /// radiance of 1.
-    pub(crate) fn received_from(&self, sky: &Dome, point: DVec3, normal: DVec3) -> f64 {
+    /// radiance of 1. Of few polygons what they hide is clipped away, of more it is found by rays.
+    pub(crate) fn received_from(&self, sky: &Dome, at: &SurfacePoint, rays: Rays) -> f64 {
+        if !self.clips_sky() {
+            return sky::received_by_rays(sky, at.normal, rays, |to| self.escape(at.position, to));
+        }
         let polygon = |facet: &Facet| match *facet.vertices() {
             [a, b, c, d] => Polygon::quadrilateral(a, b, c, d),
             _ => Polygon::triangle(facet.corners()[0], facet.corners()[1], facet.corners()[2]),
@@ -152,7 +161,27 @@ impl Visibility {
             let polygons: Vec<Polygon> = self.facets.iter().map(polygon).collect();
             Cover::new(&polygons, ON_PLANE)
         });
-        sky::received(sky, cover, self.frame.point(point), normal)
+        sky::received(sky, cover, self.frame.point(at.position), at.normal)
+    }
+
+    /// Whether polygons are few enough for the light of a sky to be found without rays.
+    pub fn clips_sky(&self) -> bool {
+        self.facets.len() <= sky::FEW
+    }
+
+    /// How many of the rays from a point in unit directions meet nothing.
+    fn escape(&self, origin: DVec3, directions: &[DVec3]) -> usize {
+        let s = self.frame.point(origin);
+        let reach = s.length() + 1.0;
+        let end = |direction: &DVec3| s + reach * *direction;
+        let of_chunk = |directions: &[DVec3]| {
+            let mut beam = Beam::new(&self.facets, directions.iter().map(|direction| [s, end(direction)]));
+            self.occluders.walk(&mut beam);
+            self.walls.walk(&mut beam);
+            let alone = |k: usize| self.is_clear_within(s, end(&directions[k]));
+            (0..directions.len()).filter(|&k| beam.is_clear(k).unwrap_or_else(|| alone(k))).count()
+        };
+        directions.chunks(MOST).map(of_chunk).sum()
     }
 
     /// The first polygon, seen from either side, that a ray meets; `direction` is a unit vector.

@@ -9,7 +9,7 @@ use radiosity::linked;
 use radiosity::patches::Patches;
 use radiosity::polygon::Polygon;
 use radiosity::reconstruct::Lit;
-use radiosity::scene::Scene;
+use radiosity::scene::{Light, Scene};
 use radiosity::visibility::Visibility;
 
 /// Faces up to which each is held against each: with some thousand of them, hardly a pair of which is proved to be in sight, that takes
@@ -28,8 +28,12 @@ pub struct Ground<'a, V> {
 impl<'a, V: Value> Ground<'a, V> {
     /// `polygons` are those of the scene, in its order.
     pub fn new(scene: &'a Scene<V>, polygons: &'a [Polygon]) -> Result<Self> {
-        let few = (polygons.len() <= FEW).then(|| Domain::new(scene, polygons)).transpose()?;
-        Ok(Self { scene, polygons, visibility: Visibility::new(polygons), few })
+        let visibility = Visibility::new(polygons);
+        let has_sky = scene.lights.iter().any(|light| matches!(light, Light::Sky(_)));
+        // Rays to a sky, in other directions from point to point, make no light that a polynomial would follow.
+        let is_few = polygons.len() <= FEW && (!has_sky || visibility.clips_sky());
+        let few = is_few.then(|| Domain::new(scene, polygons)).transpose()?;
+        Ok(Self { scene, polygons, visibility, few })
     }
 
     /// Solves, with a bar on the terminal, and tells of the rounds.
