@@ -229,7 +229,7 @@ fn with_vertices<R>(
     let polygons = scene.polygons();
     let domain = Domain::new(&scene, &polygons).unwrap();
     let field = || solve(&domain, &Request { accuracy: 0.1, ..Request::default() }, |_| true);
-    let light = VertexLight::new(&scene, field(), &polygons, VERTEX_ERROR, &|_, _| ());
+    let light = VertexLight::new(&scene, &field(), &polygons, VERTEX_ERROR, &|_, _| ());
     look(&scene, &polygons, &field(), &light)
 }
 

@@ -6,7 +6,7 @@ use crate::radiosity::timing::{Seconds, timed};
 use crate::terminal::bar;
 use anyhow::Result;
 use radiosity::adaptive::Round;
-use radiosity::bake::{Atlas, Lightmap, VertexLight};
+use radiosity::bake::{Atlas, Lightmap, MOST_LOOKS, VertexLight};
 use radiosity::export::{write_exr, write_glb, write_vertex_glb};
 use radiosity::polygon::Polygon;
 use radiosity::render::Colour;
@@ -74,16 +74,11 @@ impl<V: Colour> Light<V> {
             bar.finish_and_clear();
             return Self::Texture(lightmap);
         }
-        let field = match field {
-            Solved::Few(field) => *field,
-            Solved::Many(field) => {
-                return Self::Vertices(VertexLight::of_field(scene, field.patches(), &*field));
-            }
-        };
+        let field = field.for_points(MOST_LOOKS);
         let accuracy = BETWEEN * accuracy;
         let progress = Progress::new(accuracy);
         let tell = |patches: usize, error: f64| progress.tell(&Round { patches, links: 0, error });
-        let light = VertexLight::new(scene, field, polygons, accuracy, &tell);
+        let light = VertexLight::new(scene, &*field, polygons, accuracy, &tell);
         progress.finish();
         Self::Vertices(light)
     }

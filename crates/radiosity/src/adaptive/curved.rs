@@ -43,6 +43,15 @@ impl<V: Value> Lit<V> for Field<'_, V> {
         self.domain.is_buried(face, point)
     }
 
+    fn cells(&self) -> Vec<(u32, Polygon)> {
+        let quarters = |(face, patch): (u32, &Polygon)| patch.quarters().map(|quarter| (face, quarter));
+        self.patches().flat_map(quarters).collect()
+    }
+
+    fn scale(&self) -> f64 {
+        self.scale()
+    }
+
     fn lights(&self) -> &[Light<V>] {
         self.domain.lights()
     }

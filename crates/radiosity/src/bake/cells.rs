@@ -1,6 +1,5 @@
 //! Parts of faces between whose nodes light is linear, and the points that they look at, each of which is looked at once.
 
-use crate::adaptive::Field;
 use crate::polygon::Polygon;
 use crate::reconstruct::Lit;
 use fredholm::value::Value;
@@ -121,7 +120,7 @@ const TOGETHER: usize = 64;
 
 /// The points of faces, numbered, and the light there.
 pub(super) struct Sites<'a, V> {
-    field: &'a Field<'a, V>,
+    field: &'a dyn Lit<V>,
     faces: &'a [Polygon],
     low: DVec3,
     unit: f64,
@@ -132,7 +131,7 @@ pub(super) struct Sites<'a, V> {
 }
 
 impl<'a, V: Value> Sites<'a, V> {
-    pub(super) fn new(field: &'a Field<'a, V>, faces: &'a [Polygon]) -> Self {
+    pub(super) fn new(field: &'a dyn Lit<V>, faces: &'a [Polygon]) -> Self {
         let vertices = || faces.iter().flat_map(Polygon::vertices);
         let low = vertices().fold(DVec3::INFINITY, |low, v| low.min(*v));
         let extent = vertices().fold(0.0, |extent, v| f64::max(extent, (*v - low).max_element()));

@@ -12,7 +12,7 @@ mod patches;
 mod vertices;
 
 pub use atlas::{Atlas, Crowded};
-pub use vertices::{VertexLight, Vertices};
+pub use vertices::{MOST_LOOKS, VertexLight, Vertices};
 
 use self::covered::uncovered;
 use crate::polygon::Polygon;

@@ -2,11 +2,8 @@
 
 use super::vertices::{VertexLight, Vertices};
 use crate::patches::{Corners, Patches};
-use crate::reconstruct::{Lit, scattered};
 use crate::scene::Scene;
 use fredholm::value::Value;
-use glam::DVec3;
-use rayon::prelude::*;
 
 impl<V: Value> VertexLight<V> {
     /// Of the radiosity of each patch. `error` is 0: nothing is known of what light is between patches.
@@ -15,50 +12,7 @@ impl<V: Value> VertexLight<V> {
         let at_corners = corners.means(patches, radiosity, &vec![1.0; patches.len()]);
         Self { surfaces: surfaces(scene, patches, &corners, (&at_corners, radiosity)), error: 0.0 }
     }
-
-    /// Of a field, looked at in the corners and the middles of patches, and between some of them.
-    pub fn of_field(scene: &Scene<V>, patches: &Patches<V>, field: &dyn Lit<V>) -> Self {
-        let corners = Corners::new(patches);
-        let faces: Vec<u32> = patches.face_of_each();
-        let looked = |points: &[(u32, DVec3)]| -> Vec<[V; 2]> {
-            let seen = |points: &[(u32, DVec3)]| field.seen(&mut points.iter().copied());
-            points.par_chunks(LOOK).flat_map_iter(seen).collect()
-        };
-        let middle = |i: usize| (faces[i], patches.polygons[i].centroid());
-        let at_middles = looked(&(0..patches.len()).map(middle).collect::<Vec<_>>());
-        let lit: Vec<f64> =
-            at_middles.iter().map(|[_, h]| if h.magnitude() > 0.0 { 1.0 } else { 0.0 }).collect();
-        let at_middles: Vec<V> = at_middles.into_iter().map(|[b, _]| b).collect();
-        // Corners without any light are under something that stands there: they take what the patches around them have, or each
-        // foot would have a dark rim as wide as a patch.
-        let around = corners.means(patches, &at_middles, &lit);
-        let at_corners = looked(&corners.places(patches, &faces)).into_iter().zip(around);
-        let at_corners: Vec<V> =
-            at_corners.map(|([b, h], around)| if h.magnitude() > 0.0 { b } else { around }).collect();
-
-        let step = patches.len().div_ceil(LOOKS).max(1);
-        let between: Vec<usize> = (0..patches.len()).step_by(step).collect();
-        let point = |i: &usize| {
-            let (s, t) = scattered(*i);
-            (faces[*i], patches.polygons[*i].point(s, t))
-        };
-        let points: Vec<(u32, DVec3)> = between.iter().map(point).collect();
-        let (mut off, mut reflected) = (0.0, 0.0);
-        for ((i, (_, point)), [light, _]) in between.iter().zip(&points).zip(looked(&points)) {
-            let linear = corners.between(patches, (*i, *point), &at_corners, at_middles[*i]);
-            off += patches.areas[*i] * (light - linear).square();
-            reflected += patches.areas[*i] * (light - patches.emission[*i]).square();
-        }
-        let error = if reflected > 0.0 { (off / reflected).sqrt() } else { 0.0 };
-        Self { surfaces: surfaces(scene, patches, &corners, (&at_corners, &at_middles)), error }
-    }
 }
-
-/// Points that one thread looks at.
-const LOOK: usize = 1024;
-
-/// Patches between whose corners the field is looked at.
-const LOOKS: usize = 8192;
 
 /// The triangles between corners and middles.
 fn surfaces<V: Value>(

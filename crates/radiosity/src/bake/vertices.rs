@@ -1,13 +1,13 @@
 //! A solved field as B at the vertices of triangles, between which it is linear: faces are cut where it is not.
 //!
-//! The mesh begins with the quarters of the field's patches. Of each cell the light at points between its nodes is held against what is
+//! The mesh begins with the cells of the field's. Of each cell the light at points between its nodes is held against what is
 //! linear there; cells with most of the error are cut in four until the rest is small enough. Where a cell has smaller neighbours it
 //! takes their corners, so that no cracks open. Under what stands on a face it is dark: corners there take what the others of
 //! their cell have, or each foot would have a dark rim as wide as a cell.
 
 use super::cells::{Cell, Sites};
-use crate::adaptive::Field;
 use crate::polygon::Polygon;
+use crate::reconstruct::Lit;
 use crate::scene::Scene;
 use fredholm::value::Value;
 use glam::DVec3;
@@ -45,27 +45,26 @@ pub struct VertexLight<V> {
 /// Cells after which no more are cut: some 12 MB of binary glTF.
 const MOST: usize = 60_000;
 
+/// So many points does [`VertexLight::new`] look at, at most and about.
+pub const MOST_LOOKS: usize = 4 * MOST;
+
 /// Cells are cut that have this part of the error: fewer are more rounds, more are finer than needed.
 const BULK: f64 = 0.8;
 
 impl<V: Value> VertexLight<V> {
     /// Cuts the faces until what is linear between vertices is within `accuracy` of the field. `polygons` are those of the
-    /// scene and of the field; `progress` is told how many cells there are,
-    /// and the error.
+    /// scene and of the field; `progress` is told how many cells there are, and the error.
     pub fn new(
         scene: &Scene<V>,
-        field: Field<'_, V>,
+        field: &dyn Lit<V>,
         polygons: &[Polygon],
         accuracy: f64,
         progress: &dyn Fn(usize, f64),
     ) -> Self {
-        let patches: Vec<(u32, Polygon)> = field.patches().map(|(face, p)| (face, p.clone())).collect();
         let scale = field.scale();
-        let field = field.for_points(4 * MOST);
-        let mut sites = Sites::new(&field, polygons);
-        let quarters = patches.iter().flat_map(|(face, patch)| patch.quarters().map(|q| (*face, q)));
-        let mut cells: Vec<Cell> =
-            quarters.map(|(face, quarter)| Cell::new(face, quarter, &mut sites)).collect();
+        let mut sites = Sites::new(field, polygons);
+        let parts = field.cells().into_iter();
+        let mut cells: Vec<Cell> = parts.map(|(face, part)| Cell::new(face, part, &mut sites)).collect();
         let area: f64 = polygons.iter().map(Polygon::area).sum();
         loop {
             sites.look();

@@ -3,7 +3,7 @@
 use super::field::Field;
 use crate::hierarchical::{Light, Plan, told};
 use crate::polygon::Polygon;
-use crate::reconstruct::{Rotation, scattered};
+use crate::reconstruct::{Lit, Rotation, scattered};
 use fredholm::operator::hierarchical::Cluster;
 use fredholm::value::Value;
 use glam::DVec3;
@@ -31,10 +31,7 @@ impl Error {
         residual: f64,
     ) -> Self {
         let patches = field.patches();
-        let total: f64 = patches.areas.iter().sum();
-        let reflected = |i: usize| (field.radiosity()[i] - patches.emission[i]).square();
-        let norm = (0..patches.len()).map(|i| patches.areas[i] * reflected(i)).sum::<f64>() / total;
-        let (norm, rho) = (norm.sqrt(), patches.mean_reflectance());
+        let (norm, rho) = (field.scale(), patches.mean_reflectance());
         if norm == 0.0 {
             return Self::default();
         }

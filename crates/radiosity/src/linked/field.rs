@@ -5,6 +5,7 @@ use super::error::Error;
 use super::inverse;
 use crate::adaptive::Bound;
 use crate::patches::{Corners, Patches};
+use crate::polygon::Polygon;
 use crate::reconstruct::{Lit, Rotation};
 use crate::scene::Light;
 use fredholm::value::Value;
@@ -105,6 +106,17 @@ impl<V: Value> Lit<V> for Field<'_, V> {
 
     fn is_covered(&self, face: u32, point: DVec3) -> bool {
         self.direct.is_buried(face, point)
+    }
+
+    fn cells(&self) -> Vec<(u32, Polygon)> {
+        self.patches.face_of_each().into_iter().zip(self.patches.polygons.iter().cloned()).collect()
+    }
+
+    fn scale(&self) -> f64 {
+        let Patches { areas, emission, .. } = &self.patches;
+        let reflected = self.radiosity.iter().zip(emission).map(|(b, e)| (*b - *e).square());
+        let sum: f64 = areas.iter().zip(reflected).map(|(area, square)| area * square).sum();
+        (sum / areas.iter().sum::<f64>()).sqrt()
     }
 
     fn lights(&self) -> &[Light<V>] {

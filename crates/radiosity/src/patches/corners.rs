@@ -45,17 +45,6 @@ impl Corners {
         &self.of[patch][..patches.polygons[patch].vertices().len()]
     }
 
-    /// Where the corners are, each on a face that has it; `faces` are those of patches.
-    pub fn places<V: Value>(&self, patches: &Patches<V>, faces: &[u32]) -> Vec<(u32, DVec3)> {
-        let mut places = vec![(0, DVec3::ZERO); self.count];
-        for (patch, face) in faces.iter().enumerate() {
-            for (vertex, corner) in patches.polygons[patch].vertices().iter().zip(self.of(patches, patch)) {
-                places[*corner as usize] = (*face, *vertex);
-            }
-        }
-        places
-    }
-
     /// At each corner the mean over the patches that meet there, each with a weight; 0 where they have none.
     pub fn means<V: Value>(&self, patches: &Patches<V>, values: &[V], weights: &[f64]) -> Vec<V> {
         let mut sums = vec![(V::splat(0.0), 0.0); self.count];

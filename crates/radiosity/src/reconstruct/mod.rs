@@ -19,6 +19,7 @@ pub use gather::{Gather, Gathered};
 pub use lattice::{Rays, Rotation};
 pub(crate) use lattice::{lattice, scattered};
 
+use crate::polygon::Polygon;
 use crate::scene::Light;
 use glam::DVec3;
 
@@ -30,6 +31,13 @@ pub trait Lit<V>: Sync {
 
     /// Whether a point of a face is under something that stands on it, where no light comes.
     fn is_covered(&self, face: u32, point: DVec3) -> bool;
+
+    /// Parts of the faces, of the mesh that the field was solved on, on which light is about linear between corners and middles
+    /// where it has no edges.
+    fn cells(&self) -> Vec<(u32, Polygon)>;
+
+    /// The root of the mean square of the light that surfaces reflect, in W/m².
+    fn scale(&self) -> f64;
 
     /// What shines on the faces and is none of them.
     fn lights(&self) -> &[Light<V>];
