@@ -1,14 +1,18 @@
 //! Very many patches: time, memory, links and error of the hierarchical operator on four scenes, and the matrix beside it.
 //!
-//! `cargo bench -p radiosity --bench hierarchical [-- PATCHES … SCENE …]`: 1 000, 10 000 and 100 000 if none are given, and all four
-//! scenes; a million take some minutes each. Times are of the whole: clusters, sketch, links, GMRES, and the estimate of the error.
+//! `cargo bench -p radiosity --bench hierarchical [-- PATCHES … SCENE … ACCURACY reference]`: 1 000, 10 000 and 100 000 if none are given,
+//! all four scenes, and an accuracy of factors of 0.001; a million take some minutes each. Times are of the whole: clusters, sketch, links,
+//! GMRES, and the estimate of the error. With `reference` light is held against a finer one: where faces are few the adaptive answer to
+//! 0.5 %, else links of a third of the accuracy.
 
 #![expect(clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark prints what it measures")]
 
 mod scenes;
 
 use fredholm::value::{Rgb, Value};
+use radiosity::adaptive::{self, Domain, Request};
 use radiosity::patches::{Patches, size_for_count};
+use radiosity::reconstruct::Lit;
 use radiosity::scene::{Scene, cornell_box};
 use radiosity::solve::{Options, Solution, Solver, Storage, Unobserved, solve};
 use radiosity::visibility::Visibility;
@@ -23,13 +27,26 @@ fn main() {
     let counts = if given.is_empty() { vec![1_000, 10_000, 100_000] } else { given };
     let named = |name: &&str| words.iter().any(|word| word == name);
     let names = ["Cornell box", "boxes", "terrain", "building"];
-    println!("{} threads, --factor-accuracy {ACCURACY}", rayon::current_num_threads());
+    let accuracy = words.iter().filter_map(|word| word.parse().ok()).find(|a| *a < 1.0).unwrap_or(1e-3);
+    let asked = Asked { accuracy, reference: words.iter().any(|word| word == "reference") };
+    println!("{} threads, --factor-accuracy {accuracy}", rayon::current_num_threads());
     for name in names.iter().filter(|name| named(name) || !names.iter().any(named)) {
         println!(
-            "\n{name:12} {:>8} {:>8} {:>8} {:>8} {:>9} {:>8} | {:>8} {:>9} {:>10}",
-            "links/n", "rays/n", "MB", "s", "told", "of links", "matrix s", "MB", "difference"
+            "\n{name:12} {:>8} {:>8} {:>8} {:>8} {:>9} {:>8} | {:>8} {:>9} {:>10} | {:>9} {:>9}",
+            "links/n",
+            "rays/n",
+            "MB",
+            "s",
+            "told",
+            "of links",
+            "matrix s",
+            "MB",
+            "difference",
+            "reflected",
+            "off"
         );
-        let lines: Vec<[f64; 2]> = counts.iter().map(|count| line(&scene(name, *count), *count)).collect();
+        let lines: Vec<[f64; 2]> =
+            counts.iter().map(|count| line(&scene(name, *count), *count, &asked)).collect();
         for pair in lines.windows(2) {
             let slope = (pair[1][1] / pair[0][1]).ln() / (pair[1][0] / pair[0][0]).ln();
             println!("slope of log time from {} to {}: {slope:.2}", pair[0][0], pair[1][0]);
@@ -37,8 +54,13 @@ fn main() {
     }
 }
 
-/// The accuracy that light is asked for to 1 %, and has at some tenths of that.
-const ACCURACY: f64 = 1e-3;
+/// What is asked for.
+struct Asked {
+    /// Of form factors.
+    accuracy: f64,
+    /// Whether light is held against a finer one.
+    reference: bool,
+}
 
 /// A scene that is worth so many patches.
 fn scene(name: &str, count: usize) -> Scene<Rgb> {
@@ -51,10 +73,10 @@ fn scene(name: &str, count: usize) -> Scene<Rgb> {
 }
 
 /// Patches and seconds.
-fn line(scene: &Scene<Rgb>, count: usize) -> [f64; 2] {
+fn line(scene: &Scene<Rgb>, count: usize, asked: &Asked) -> [f64; 2] {
     let patches = Patches::new(scene, size_for_count(scene, count)).unwrap();
     let visibility = Visibility::new(&scene.polygons());
-    let (linked, seconds) = solved(&patches, &visibility, Storage::Hierarchical);
+    let (linked, seconds) = solved(&patches, &visibility, Storage::Hierarchical, asked.accuracy);
     let links = linked.links.unwrap();
     let n = patches.len() as f64;
     let each = |count: u64| count as f64 / n;
@@ -68,30 +90,73 @@ fn line(scene: &Scene<Rgb>, count: usize) -> [f64; 2] {
         100.0 * links.judged.links,
     );
     if patches.len() <= MATRIX {
-        let (dense, seconds) = solved(&patches, &visibility, Storage::Dense);
+        let (dense, seconds) = solved(&patches, &visibility, Storage::Dense, asked.accuracy);
         let difference = distance(&patches, &linked.radiosity, &dense.radiosity);
-        print!(" {seconds:>8.2} {:>9} {:>9.2}%", (patches.len().pow(2) * 4) >> 20, 100.0 * difference);
+        print!(" {seconds:>8.2} {:>9} {:>9.2}% |", (patches.len().pow(2) * 4) >> 20, 100.0 * difference);
+    } else {
+        print!(" {:>8} {:>9} {:>10} |", "", "", "");
+    }
+    if asked.reference {
+        let [told, off] = reference(scene, (&patches, &visibility), &linked, asked.accuracy);
+        print!(" {:>8.2}% {:>8.2}%", 100.0 * told, 100.0 * off);
     }
     println!();
     [n, seconds]
 }
 
-fn solved(patches: &Patches<Rgb>, visibility: &Visibility, storage: Storage) -> (Solution<Rgb>, f64) {
+fn solved(
+    patches: &Patches<Rgb>,
+    visibility: &Visibility,
+    storage: Storage,
+    accuracy: f64,
+) -> (Solution<Rgb>, f64) {
     let start = Instant::now();
-    let options = Options {
-        storage,
-        accuracy: ACCURACY,
-        solver: Solver::Gmres,
-        memory: u64::MAX,
-        ..Options::default()
-    };
+    let options =
+        Options { storage, accuracy, solver: Solver::Gmres, memory: u64::MAX, ..Options::default() };
     let solution = solve(patches, visibility, &options, &mut Unobserved).unwrap();
     (solution, start.elapsed().as_secs_f64())
 }
 
 /// ‖u − v‖ / ‖v‖ in the mean square.
 fn distance(patches: &Patches<Rgb>, u: &[Rgb], v: &[Rgb]) -> f64 {
-    let square = |x: Rgb| x.channels().iter().map(|c| c * c).sum::<f64>();
-    let norm = |of: &dyn Fn(usize) -> f64| (0..v.len()).map(|i| patches.areas[i] * of(i)).sum::<f64>().sqrt();
-    norm(&|i| square(u[i] - v[i])) / norm(&|i| square(v[i]))
+    let all: Vec<usize> = (0..v.len()).collect();
+    norm(patches, &all, |i| u[i] - v[i]) / norm(patches, &all, |i| v[i])
+}
+
+/// The root of the sum of areas times squares, over some patches.
+fn norm(patches: &Patches<Rgb>, of: &[usize], value: impl Fn(usize) -> Rgb) -> f64 {
+    of.iter().map(|&i| patches.areas[i] * value(i).square()).sum::<f64>().sqrt()
+}
+
+/// What the adaptive answer is asked to err by at most, and the patches that are held against it.
+const FINER: f64 = 0.005;
+const LOOKS: usize = 20_000;
+
+/// What links tell of the light that is *reflected*, without lamps, and how far that is from a finer one.
+fn reference(
+    scene: &Scene<Rgb>,
+    (patches, visibility): (&Patches<Rgb>, &Visibility),
+    linked: &Solution<Rgb>,
+    accuracy: f64,
+) -> [f64; 2] {
+    let faces = scene.polygons();
+    let all: Vec<usize> = (0..patches.len()).collect();
+    let (at, fine): (Vec<usize>, Vec<Rgb>) = if faces.len() <= 1000 {
+        let domain = Domain::new(scene, &faces).unwrap();
+        let field = adaptive::solve(&domain, &Request { accuracy: FINER, ..Request::default() }, |_| true);
+        let at: Vec<usize> = all.iter().copied().step_by(patches.len().div_ceil(LOOKS)).collect();
+        let on = patches.face_of_each();
+        let mut points = at.iter().map(|&i| (on[i], patches.polygons[i].centroid()));
+        let light = field.seen(&mut points);
+        (at, light.into_iter().map(|[b, _]| b).collect())
+    } else {
+        (all.clone(), solved(patches, visibility, Storage::Hierarchical, accuracy / 3.0).0.radiosity)
+    };
+    let mut exact = linked.radiosity.clone();
+    at.iter().zip(fine).for_each(|(&i, light)| exact[i] = light);
+    let reflected = norm(patches, &at, |i| exact[i] - patches.emission[i]);
+    let off = norm(patches, &at, |i| linked.radiosity[i] - exact[i]);
+    let whole = norm(patches, &all, |i| linked.radiosity[i]);
+    let without = norm(patches, &all, |i| linked.radiosity[i] - patches.emission[i]);
+    [linked.links.as_ref().unwrap().judged.error * whole / without, off / reflected]
 }

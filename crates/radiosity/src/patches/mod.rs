@@ -182,7 +182,7 @@ impl<V: Value> Patches<V> {
     }
 
     /// The number of the input polygon that each patch lies on.
-    pub(crate) fn face_of_each(&self) -> Vec<u32> {
+    pub fn face_of_each(&self) -> Vec<u32> {
         (0..self.faces()).flat_map(|face| self.on_polygon(face).map(move |_| face)).collect()
     }
 
