@@ -248,15 +248,6 @@ fn the_unit_changes_nothing() {
 }
 
 #[test]
-fn a_sky_is_for_scenes_in_which_all_can_be_asked_what_they_hide() {
-    let many = "f 1 2 3 4\n".repeat(20_001);
-    let mut files = obj(&many);
-    let toml = "unit = 'm'\nmeshes = ['a.obj']\n[sky]\nkind = 'uniform'\nzenith_radiance = 1\n";
-    files.insert(0, ("a.toml", toml.to_owned()));
-    check("many", &[Case { files, place: "a.toml", words: &["20001 polygons", "20000 are the most"] }]);
-}
-
-#[test]
 fn lights() {
     let light = |rest: &str, place, words| {
         let mut files = obj("f 1 2 3 4");

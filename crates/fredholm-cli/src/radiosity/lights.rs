@@ -128,13 +128,10 @@ impl Sky {
     }
 
     fn line(&self, unit: &str) -> String {
-        let error = match self.largest_relative_error {
-            rounding if rounding < 1e-9 => "exact".to_owned(),
-            error => format!("to {} in any direction", percent(error)),
-        };
-        let error = match self.rays {
-            None => error,
-            Some(rays) => format!("{error}, seen by {rays} rays from a point"),
+        let error = match (self.rays, self.largest_relative_error) {
+            (Some(rays), _) => format!("seen by {rays} rays from a point, mostly to 0.5 % of it"),
+            (None, rounding) if rounding < 1e-9 => "exact".to_owned(),
+            (None, error) => format!("to {} in any direction", percent(error)),
         };
         format!(
             "{}: {} on a free horizontal, {} at the zenith; {error}",

@@ -72,8 +72,9 @@ pub(super) fn directions(dome: &Dome, normal: DVec3, rays: Rays, into: &mut Vec<
         return 0.0;
     }
     into.extend(lattice(rays.count, rays.rotation).map(|(s, t)| {
-        let light = s * sum;
-        let k = before.partition_point(|b| *b <= light).min(before.len() - 1);
+        // Less than the sum, also where it is rounded: the cell has some of the light.
+        let light = (s * sum).min(sum.next_down());
+        let k = before.partition_point(|b| *b <= light);
         let start = if k == 0 { 0.0 } else { before[k - 1] };
         let direction = dome.targets[k].direction((light - start) / (before[k] - start), t);
         // A cell across the horizon of the surface is taken for one above.
@@ -96,6 +97,8 @@ mod tests {
     use super::super::model::{Kind, Model};
     use super::super::view::{received, tests::yard};
     use super::*;
+    use crate::kernel::SurfacePoint;
+    use crate::polygon::Polygon;
     use crate::reconstruct::Rotation;
     use crate::visibility::Visibility;
 
@@ -125,6 +128,37 @@ mod tests {
             }
             let error = f64::sqrt(square / points);
             assert!(error < 7e-3, "{:?}: {error}", dome.model().kind());
+        }
+    }
+
+    #[test]
+    fn rays_that_go_together_find_what_each_does() {
+        // Two yards are too many polygons to be clipped; beyond all is a wall, which hides nothing between points of them.
+        let beside = |polygon: &Polygon| {
+            let corners: Vec<DVec3> = polygon.vertices().iter().map(|v| *v + 20.0 * DVec3::X).collect();
+            match corners[..] {
+                [a, b, c, d] => Polygon::quadrilateral(a, b, c, d),
+                _ => Polygon::triangle(corners[0], corners[1], corners[2]),
+            }
+        };
+        let [low, high] = [-12.0, 12.0].map(|y| DVec3::new(-12.0, y, 0.0));
+        let mut polygons = yard();
+        polygons.extend(yard().iter().map(beside));
+        polygons.push(Polygon::quadrilateral(low, high, high + 9.0 * DVec3::Z, low + 9.0 * DVec3::Z));
+        let visibility = Visibility::new(&polygons);
+        assert!(!visibility.clips_sky());
+        let dome = domes().last().unwrap();
+        for (k, polygon) in polygons.iter().enumerate() {
+            let (position, normal) = (polygon.point(0.3, 0.4), polygon.normal());
+            let alone =
+                |to: &[DVec3]| to.iter().filter(|to| visibility.nearest(position, **to).is_none()).count();
+            let rays = Rays { count: 100, rotation: Rotation::of(k) };
+            let expected = received_by_rays(&dome, normal, rays, alone);
+            assert_eq!(
+                visibility.received_from(&dome, &SurfacePoint { position, normal }, rays),
+                expected,
+                "{k}"
+            );
         }
     }
 
