@@ -3,10 +3,11 @@
 use super::block::Block;
 use super::clusters::{Clusters, up_to};
 use super::cut::Cuts;
-use super::factor::{Factors, Link};
+use super::factor::{Column, Factors, Link};
 use super::kept::Kept;
 use super::{Hierarchical, Statistics};
 use crate::patches::Patches;
+use crate::polygon::Polygon;
 use crate::visibility::Visibility;
 use fredholm::krylov::Gmres;
 use fredholm::operator::Operator;
@@ -113,7 +114,7 @@ impl<'a, V: Value> Plan<'a, V> {
 
     fn tree_bytes(&self) -> u64 {
         let cluster = size_of::<super::clusters::Whole>() + 14 * size_of::<f64>();
-        (self.clusters.wholes.len() * cluster + self.patches.len() * 32) as u64
+        (self.clusters.wholes.len() * cluster + self.patches.len() * (size_of::<Polygon>() + 32)) as u64
     }
 
     /// Brightness, its standard deviation, and what arrives, by cluster.
@@ -131,15 +132,7 @@ impl<'a, V: Value> Plan<'a, V> {
         [deviation, brightness, arriving]: &'b [Vec<f64>; 3],
         part: f64,
     ) -> Cuts<'b> {
-        Cuts {
-            clusters: &self.clusters,
-            polygons: &self.patches.polygons,
-            visibility: self.visibility,
-            brightness,
-            deviation,
-            arriving,
-            part,
-        }
+        Cuts { clusters: &self.clusters, visibility: self.visibility, brightness, deviation, arriving, part }
     }
 
     pub(super) fn factors<'b>(
@@ -150,7 +143,6 @@ impl<'a, V: Value> Plan<'a, V> {
     ) -> Factors<'b> {
         Factors {
             clusters: &self.clusters,
-            polygons: &self.patches.polygons,
             visibility: self.visibility,
             seed,
             fine,
@@ -252,23 +244,20 @@ impl<'a, V: Value> Plan<'a, V> {
         found: &mut Vec<Cluster>,
     ) -> (Block, u64) {
         cuts.of(receiver, found);
-        let members = self.clusters.tree.members(receiver);
-        let members = &members[..members.len().min(work.most)];
-        let hull = self.clusters.hull(receiver, &self.patches.polygons);
+        let range = self.clusters.tree.range(receiver);
+        let first = range.start;
+        let parts = &self.clusters.polygons[first..range.end.min(first + work.most)];
+        let hull = self.clusters.hull(receiver);
         let worth = work.part * cuts.arriving[receiver.index()];
-        let mut rays = 0;
+        let (mut rays, mut column) = (0, Column::default());
         let columns = (0_u64..).zip(found.iter()).map(|(number, sender)| {
             let clear = factors.clear(hull.as_deref(), *sender);
-            let link =
-                Link { sender: *sender, number, clear, worth: worth / cuts.brightness[sender.index()] };
-            let factor = |patch: &usize| {
-                let (factor, cast) = factors.factor(*patch, &link);
-                rays += u64::from(cast);
-                factor as f32
-            };
-            (*sender, members.iter().map(factor).collect())
+            let worth = worth / cuts.brightness[sender.index()];
+            factors.column(parts, &Link { first, sender: *sender, number, clear, worth }, &mut column);
+            rays += column.cast;
+            (*sender, column.factors.iter().map(|factor| *factor as f32).collect())
         });
-        (Block::new(receiver, members.len(), columns), rays)
+        (Block::new(receiver, parts.len(), columns), rays)
     }
 
     /// The receiver of a number.

@@ -159,6 +159,8 @@ fn wider(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
 pub(super) struct Clusters {
     pub tree: ClusterTree<6>,
     pub wholes: Vec<Whole>,
+    /// The patches in the order of the tree: those that are asked for together lie side by side in memory.
+    pub polygons: Vec<Polygon>,
     /// What each patch counts for, in m²: next to nothing where all of it is under something that stands there. Nobody sees that, and
     /// its darkness is no part of the mean of what is seen.
     pub areas: Vec<f64>,
@@ -207,7 +209,8 @@ impl Clusters {
             Some(*sum)
         }));
         let wholes: Vec<Whole> = wholes.into_iter().flatten().collect();
-        Self { ascent: Ascent::new(&tree, &wholes), tree, wholes, areas, before }
+        let polygons = tree.order().iter().map(|patch| polygons[*patch].clone()).collect();
+        Self { ascent: Ascent::new(&tree, &wholes), tree, wholes, polygons, areas, before }
     }
 
     pub fn whole(&self, cluster: Cluster) -> &Whole {
@@ -219,26 +222,30 @@ impl Clusters {
         self.tree.children(cluster).is_none().then(|| self.tree.members(cluster)[0])
     }
 
-    /// The patch of a cluster that is a part `u` of its area in, 0 ≤ u < 1.
+    /// The place of a patch in the order of the tree, if a cluster is one.
+    pub fn leaf(&self, cluster: Cluster) -> Option<usize> {
+        self.tree.children(cluster).is_none().then(|| self.tree.range(cluster).start)
+    }
+
+    /// The place of the patch of a cluster that is a part `u` of its area in, 0 ≤ u < 1.
     pub fn at(&self, cluster: Cluster, u: f64) -> usize {
         let range = self.tree.range(cluster);
         let (from, to) = (self.before[range.start], self.before[range.end]);
         let area = from + u * (to - from);
         // Patches of a cluster are mostly of one size: then it is the first that is tried.
         let likely = range.start + (u * range.len() as f64) as usize;
-        let place = if self.before[likely] <= area && area < self.before[likely + 1] {
+        if self.before[likely] <= area && area < self.before[likely + 1] {
             likely
         } else {
             let within = &self.before[range.start + 1..range.end];
             range.start + within.partition_point(|before| *before <= area)
-        };
-        self.tree.order()[place]
+        }
     }
 
     /// A polygon that all of its patches are in: the patch itself, or a rectangle around those of one plane.
-    pub fn hull<'a>(&self, cluster: Cluster, polygons: &'a [Polygon]) -> Option<Cow<'a, Polygon>> {
-        match self.patch(cluster) {
-            Some(patch) => Some(Cow::Borrowed(&polygons[patch])),
+    pub fn hull(&self, cluster: Cluster) -> Option<Cow<'_, Polygon>> {
+        match self.leaf(cluster) {
+            Some(place) => Some(Cow::Borrowed(&self.polygons[place])),
             None => self.whole(cluster).rectangle().map(Cow::Owned),
         }
     }

@@ -3,7 +3,6 @@
 use super::clusters::{Clusters, Whole};
 use super::random::Random;
 use crate::kernel;
-use crate::polygon::Polygon;
 use crate::visibility::Visibility;
 use fredholm::operator::hierarchical::Cluster;
 
@@ -14,7 +13,6 @@ use fredholm::operator::hierarchical::Cluster;
 #[derive(Debug)]
 pub(super) struct Cuts<'a> {
     pub clusters: &'a Clusters,
-    pub polygons: &'a [Polygon],
     pub visibility: &'a Visibility,
     /// How bright each cluster is.
     pub brightness: &'a [f64],
@@ -91,13 +89,14 @@ impl Cuts<'_> {
     /// Whether more than a part of what a cluster sends to another seems to arrive: a ray does, of as many as would be expected to.
     fn is_seen(&self, receiver: Cluster, sender: Cluster, part: f64) -> bool {
         let rays = (SURE * part.recip()).ceil() as u64;
-        let ends = [receiver, sender].map(|cluster| self.clusters.tree.members(cluster));
+        let ends =
+            [receiver, sender].map(|cluster| &self.clusters.polygons[self.clusters.tree.range(cluster)]);
         let mut random = Random::new(SEED, receiver.index() as u64, sender.index() as u64);
         rays > PROBES
             || (0..rays).any(|_| {
-                let [x, y] = ends.map(|members| {
-                    let patch = members[(random.next() * members.len() as f64) as usize];
-                    random.point(&self.polygons[patch])
+                let [x, y] = ends.map(|patches| {
+                    let patch = (random.next() * patches.len() as f64) as usize;
+                    random.point(&patches[patch])
                 });
                 kernel::unoccluded(&x, &y) > 0.0 && self.visibility.unoccluded(x.position, y.position)
             })

@@ -3,7 +3,7 @@
 use super::clusters::Clusters;
 use super::random::Random;
 use crate::form_factor::{contour, lambert};
-use crate::kernel::{self, SurfacePoint};
+use crate::kernel;
 use crate::polygon::Polygon;
 use crate::visibility::Visibility;
 use fredholm::operator::hierarchical::Cluster;
@@ -13,7 +13,6 @@ use std::f64::consts::PI;
 /// Where form factors to clusters come from.
 pub(super) struct Factors<'a> {
     pub clusters: &'a Clusters,
-    pub polygons: &'a [Polygon],
     pub visibility: &'a Visibility,
     /// Other rays with another one.
     pub seed: u64,
@@ -24,8 +23,10 @@ pub(super) struct Factors<'a> {
     pub shape: Option<&'a [f64]>,
 }
 
-/// Where the patches of a receiver gather from.
+/// What some patches side by side gather from.
 pub(super) struct Link {
+    /// The place of the first of them in the order of the tree.
+    pub first: usize,
     pub sender: Cluster,
     /// Its number among the receiver's links.
     pub number: u64,
@@ -33,6 +34,25 @@ pub(super) struct Link {
     pub clear: bool,
     /// The form factor that is worth one ray: a single patch that sends more has more.
     pub worth: f64,
+}
+
+/// The factors of a link, with room to find them in.
+#[derive(Default)]
+pub(super) struct Column {
+    /// Of each patch.
+    pub factors: Vec<f64>,
+    /// Rays cast for them.
+    pub cast: u64,
+    rays: Vec<Ray>,
+}
+
+/// A ray of a patch, by its number in the column.
+struct Ray {
+    patch: usize,
+    random: Random,
+    /// Where on the sender, as a place in the order of the tree.
+    place: usize,
+    ends: Option<[DVec3; 2]>,
 }
 
 /// A patch this many times the size of both away is a point.
@@ -49,80 +69,155 @@ const NEAR_MATTERS: f64 = 0.25;
 /// How often a ray is drawn anew that would leave or arrive at a back.
 const TRIES: usize = 4;
 
+/// The golden section: its multiples lie evenly between 0 and 1, however many there are.
+const GOLDEN: f64 = 0.618_033_988_749_895;
+
+/// One element of area of a sender.
+#[derive(Clone, Copy)]
+struct Element {
+    centre: DVec3,
+    /// Its normal times its area, and times how bright it is beside the whole.
+    front: DVec3,
+}
+
 impl Factors<'_> {
     /// Whether it is proved that nothing is between a polygon and a cluster.
     pub fn clear(&self, from: Option<&Polygon>, to: Cluster) -> bool {
-        let hull = || self.clusters.hull(to, self.polygons);
+        let hull = || self.clusters.hull(to);
         !self.visibility.hides_anything()
             || from.zip(hull()).is_some_and(|(a, b)| self.visibility.certainly_clear(a, &b))
     }
 
-    /// The form factor from a patch, with the rays cast for it.
-    pub fn factor(&self, patch: usize, link: &Link) -> (f64, u32) {
-        self.factor_from(patch, &self.polygons[patch], link)
+    /// The form factors from patches side by side, or from parts of them.
+    pub fn column(&self, parts: &[Polygon], link: &Link, column: &mut Column) {
+        column.cast = 0;
+        column.factors.clear();
+        match self.clusters.leaf(link.sender) {
+            Some(place) => {
+                let there = &self.clusters.polygons[place];
+                let factor = |(k, part): (usize, &Polygon)| {
+                    if link.first + k == place { 0.0 } else { self.to_patch(part, there, link.worth) }
+                };
+                column.factors.extend(parts.iter().enumerate().map(factor));
+            }
+            None => {
+                let (elements, count) = self.elements(link.sender);
+                let elements = &elements[..count];
+                let factor = |part: &Polygon| {
+                    let at = |x: DVec3| to_elements(x, part.normal(), elements);
+                    if self.fine {
+                        QUARTERS.iter().map(|[s, t]| at(part.point(*s, *t))).sum::<f64>() / 4.0
+                    } else {
+                        at(part.centroid())
+                    }
+                };
+                column.factors.extend(parts.iter().map(factor));
+            }
+        }
+        if !link.clear {
+            self.cast(parts, link, column);
+        }
     }
 
-    /// The form factor from a part of a patch, with the rays cast for it.
-    pub fn factor_from(&self, patch: usize, part: &Polygon, link: &Link) -> (f64, u32) {
-        let to_cluster = |x: DVec3| self.to_cluster(x, part.normal(), link.sender);
-        let whole = match self.clusters.patch(link.sender) {
-            Some(other) if other == patch => 0.0,
-            Some(other) => self.to_patch(part, &self.polygons[other], link.worth),
-            None if self.fine => {
-                QUARTERS.iter().map(|[s, t]| to_cluster(part.point(*s, *t))).sum::<f64>() / 4.0
+    /// Lets arrive what rays do.
+    ///
+    /// Where all of them go is looked up before the first is cast: so they wait for memory together.
+    fn cast(&self, parts: &[Polygon], link: &Link, column: &mut Column) {
+        let Column { factors, rays, cast } = column;
+        rays.clear();
+        let begin = Random::new(self.seed, link.first as u64, link.number).next();
+        for (k, (whole, part)) in
+            factors.iter_mut().zip(parts).enumerate().filter(|(_, (whole, _))| **whole > 0.0)
+        {
+            let wanted = ((*whole / link.worth).ceil() as u32).clamp(1, MOST_RAYS);
+            if *whole > NEAR_MATTERS * link.worth && self.is_near(part, link.sender) {
+                let near = wanted.max(LEAST_RAYS);
+                *whole *= self.seen_near(part, link, k, near);
+                *cast += u64::from(near);
+                continue;
             }
-            None => to_cluster(part.centroid()),
-        };
-        if whole <= 0.0 || link.clear {
-            return (whole.max(0.0), 0);
+            for ray in 0..wanted {
+                let u = (begin + GOLDEN * rays.len() as f64).fract();
+                let place = self.clusters.at(link.sender, u);
+                rays.push(Ray { patch: k, place, random: self.random(link, k, ray), ends: None });
+            }
         }
-        // Near patches see each other from where the kernel is large, or do not: rays are weighed by it, and one tells nothing.
-        let near = whole > NEAR_MATTERS * link.worth && self.is_near(part, link.sender);
-        let least = if near { LEAST_RAYS } else { 1 };
-        let rays = ((whole / link.worth).ceil() as u32).clamp(least, MOST_RAYS);
+        *cast += rays.len() as u64;
+        for ray in rays.iter_mut() {
+            // Of a cluster, or beyond a horizon, not all faces the patch: what turns its back has no part in the formula either.
+            for _ in 0..TRIES {
+                let ends =
+                    [&parts[ray.patch], &self.clusters.polygons[ray.place]].map(|on| ray.random.point(on));
+                if kernel::unoccluded(&ends[0], &ends[1]) > 0.0 {
+                    ray.ends = Some(ends.map(|end| end.position));
+                    break;
+                }
+                ray.place = self.clusters.at(link.sender, ray.random.next());
+            }
+        }
+        for rays in rays.chunk_by(|a, b| a.patch == b.patch) {
+            let drawn = rays.iter().filter_map(|ray| ray.ends);
+            let (mut all, mut clear) = (0, 0);
+            for [x, y] in drawn {
+                all += 1;
+                clear += u32::from(self.visibility.unoccluded(x, y));
+            }
+            factors[rays[0].patch] *= if all > 0 { f64::from(clear) / f64::from(all) } else { 0.0 };
+        }
+    }
+
+    /// Numbers for a ray of a patch.
+    fn random(&self, link: &Link, k: usize, ray: u32) -> Random {
+        Random::new(self.seed, (link.first + k) as u64, link.number << 5 | u64::from(ray))
+    }
+
+    /// What a patch sees of one that is near, as a part: near patches see each other from where the kernel is large, or do not: rays
+    /// are weighed by it, and one tells nothing.
+    fn seen_near(&self, part: &Polygon, link: &Link, k: usize, rays: u32) -> f64 {
         let (mut all, mut clear) = (0.0, 0.0);
+        let there = &self.clusters.polygons[self.clusters.tree.range(link.sender).start];
         for ray in 0..rays {
-            let mut random = Random::new(self.seed, patch as u64, link.number << 5 | u64::from(ray));
-            let mut tries = (0..TRIES).map(|_| {
-                let ends = self.ends(part, link, &mut random);
-                (ends, kernel::unoccluded(&ends[0], &ends[1]))
+            let mut random = self.random(link, k, ray);
+            let drawn = (0..TRIES).find_map(|_| {
+                let ends = [part, there].map(|polygon| random.point(polygon));
+                let kernel = kernel::unoccluded(&ends[0], &ends[1]);
+                // The kernel is infinite where two patches touch: one point of many.
+                (kernel > 0.0 && kernel.is_finite()).then_some((ends, kernel))
             });
-            // Of a cluster, or beyond a horizon, not all faces the patch: what turns its back has no part in the formula either. The
-            // kernel is infinite where two patches touch: one point of many.
-            if let Some(([x, y], kernel)) = tries.find(|(_, kernel)| *kernel > 0.0 && kernel.is_finite()) {
-                let weight = if near { kernel } else { 1.0 };
-                all += weight;
-                clear += if self.visibility.unoccluded(x.position, y.position) { weight } else { 0.0 };
+            if let Some(([x, y], kernel)) = drawn {
+                all += kernel;
+                clear += if self.visibility.unoccluded(x.position, y.position) { kernel } else { 0.0 };
             }
         }
-        (if all > 0.0 { whole * clear / all } else { 0.0 }, rays)
+        if all > 0.0 { clear / all } else { 0.0 }
     }
 
     /// Whether a cluster is a patch that is no further than twice the size of the larger of both.
     fn is_near(&self, here: &Polygon, sender: Cluster) -> bool {
-        let Some(other) = self.clusters.patch(sender) else { return false };
-        let there = &self.polygons[other];
+        let Some(other) = self.clusters.leaf(sender) else { return false };
+        let there = &self.clusters.polygons[other];
         let size = here.area().max(there.area()).sqrt();
         here.centroid().distance_squared(there.centroid()) < 4.0 * size * size
     }
 
-    /// From a point to four parts of a cluster, each as one element of area, and as bright as it is beside the whole.
-    fn to_cluster(&self, x: DVec3, n: DVec3, cluster: Cluster) -> f64 {
+    /// Four parts of a cluster, each as one element of area.
+    fn elements(&self, cluster: Cluster) -> ([Element; 4], usize) {
+        let mut elements = [Element { centre: DVec3::ZERO, front: DVec3::ZERO }; 4];
+        let mut count = 0;
         let beside = |part: Cluster| self.shape.map_or(1.0, |b| b[part.index()] / b[cluster.index()]);
-        let element = |cluster: Cluster| {
-            let whole = self.clusters.whole(cluster);
-            let between = whole.centre - x;
-            let square = between.length_squared();
-            let (leaves, arrives) = (between.dot(n), -between.dot(whole.front));
-            let facing = leaves > 0.0 && arrives > 0.0;
-            if facing { beside(cluster) * leaves * arrives / (PI * square * square) } else { 0.0 }
+        let mut add = |part: Cluster| {
+            let whole = self.clusters.whole(part);
+            elements[count] = Element { centre: whole.centre, front: whole.front * beside(part) };
+            count += 1;
         };
         let parts = |cluster: Cluster| self.clusters.tree.children(cluster);
-        let half = |cluster: Cluster| match parts(cluster) {
-            Some([a, b]) => element(a) + element(b),
-            None => element(cluster),
-        };
-        parts(cluster).map_or_else(|| element(cluster), |[a, b]| half(a) + half(b))
+        for half in parts(cluster).unwrap_or([cluster; 2]) {
+            match parts(half) {
+                Some(quarters) => quarters.into_iter().for_each(&mut add),
+                None => add(half),
+            }
+        }
+        (elements, count)
     }
 
     fn to_patch(&self, here: &Polygon, there: &Polygon, needed: f64) -> f64 {
@@ -152,12 +247,17 @@ impl Factors<'_> {
             .sum();
         mean / QUARTERS.len() as f64
     }
+}
 
-    /// A point of a part of a patch and one of the sender.
-    fn ends(&self, part: &Polygon, link: &Link, random: &mut Random) -> [SurfacePoint; 2] {
-        let other = self.clusters.at(link.sender, random.next());
-        [part, &self.polygons[other]].map(|polygon| random.point(polygon))
-    }
+/// From a point to elements of area.
+fn to_elements(x: DVec3, n: DVec3, elements: &[Element]) -> f64 {
+    let factor = |Element { centre, front }: &Element| {
+        let between = *centre - x;
+        let square = between.length_squared();
+        let (leaves, arrives) = (between.dot(n), -between.dot(*front));
+        if leaves > 0.0 && arrives > 0.0 { leaves * arrives / (PI * square * square) } else { 0.0 }
+    };
+    elements.iter().map(factor).sum()
 }
 
 const QUARTERS: [[f64; 2]; 4] = [[0.25, 0.25], [0.25, 0.75], [0.75, 0.25], [0.75, 0.75]];
