@@ -2,7 +2,7 @@
 
 use super::block::Block;
 use super::clusters::{Clusters, up_to};
-use super::cut::Cuts;
+use super::cut::{Cuts, Neighbours, Sender};
 use super::factor::{Column, Factors, Link};
 use super::kept::Kept;
 use super::{Hierarchical, Statistics};
@@ -16,6 +16,7 @@ use fredholm::relax::{Relaxation, Stop, relax};
 use fredholm::system::{System, SystemError};
 use fredholm::value::{Value, max_norm};
 use rayon::prelude::*;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// What is known of the light, or guessed, by patch: how bright it is and what arrives, in W/m², of the brightest channel.
@@ -68,8 +69,9 @@ const SKETCH: (f64, usize) = (1e-3, 20);
 /// A scene that reflects more than that in the mean has this ambient term.
 const MOST_REFLECTED: f64 = 0.95;
 
-/// Patches that share a cut.
+/// Patches that share a cut, and patches whose cuts share what seems hidden.
 const TOGETHER: usize = 16;
+const NEIGHBOURS: usize = 256;
 
 /// Cuts from which it is told how many links there will be.
 const LOOKS: usize = 256;
@@ -80,6 +82,8 @@ pub struct Plan<'a, V> {
     pub(super) visibility: &'a Visibility,
     pub(super) clusters: Arc<Clusters>,
     receivers: Vec<Cluster>,
+    /// Receivers near each other: the cluster of all their patches, and their numbers.
+    neighbours: Vec<(Cluster, Range<usize>)>,
     shaped: bool,
 }
 
@@ -87,8 +91,18 @@ impl<'a, V: Value> Plan<'a, V> {
     /// For these patches, which `visibility` is of.
     pub fn new(patches: &'a Patches<V>, visibility: &'a Visibility) -> Self {
         let clusters = Clusters::new(patches, visibility);
-        let receivers = up_to(&clusters.tree, TOGETHER);
-        Self { patches, visibility, clusters: Arc::new(clusters), receivers, shaped: false }
+        let tree = &clusters.tree;
+        let receivers = up_to(tree, TOGETHER);
+        let mut begin = 0;
+        let neighbours = up_to(tree, NEIGHBOURS).into_iter().map(|all| {
+            let end = tree.range(all).end;
+            let count =
+                receivers[begin..].iter().take_while(|receiver| tree.range(**receiver).start < end).count();
+            begin += count;
+            (all, begin - count..begin)
+        });
+        let neighbours = neighbours.collect();
+        Self { patches, visibility, receivers, neighbours, clusters: Arc::new(clusters), shaped: false }
     }
 
     /// With links that know how bright the parts of a cluster are beside the whole, and send more of what is near and bright: better for
@@ -105,7 +119,7 @@ impl<'a, V: Value> Plan<'a, V> {
         let cuts = self.cuts(&means, part);
         let bytes = |receiver: &Cluster| {
             let mut found = Vec::new();
-            cuts.of(*receiver, &mut found);
+            cuts.of(*receiver, None, &mut found);
             (found.len() * (size_of::<Cluster>() + 4 * self.clusters.tree.range(*receiver).len())) as u64
         };
         let looks: u64 = looked.par_iter().map(bytes).sum();
@@ -220,20 +234,33 @@ impl<'a, V: Value> Plan<'a, V> {
     fn built(
         &self,
         work: &Work<'_>,
-        known: Vec<Option<(Block, u64)>>,
+        mut known: Vec<Option<(Block, u64)>>,
         (progress, stops): (impl Fn(usize) + Sync, impl Fn() -> bool + Sync),
     ) -> Vec<Option<(Block, u64)>> {
         let means = self.means(work.light);
         let (cuts, factors) = (self.cuts(&means, work.part), self.factors(&means, work.seed, false));
-        let build = |found: &mut Vec<Cluster>, (known, receiver): (Option<(Block, u64)>, &Cluster)| {
-            if known.is_some() || stops() {
-                return known;
+        let built = |(all, numbers): &(Cluster, Range<usize>), known: &mut [Option<(Block, u64)>]| {
+            if stops() || known.iter().all(Option::is_some) {
+                return;
             }
-            let built = self.block(*receiver, (&cuts, &factors), work, found);
-            progress(self.clusters.tree.range(*receiver).len());
-            Some(built)
+            let (mut near, mut found) = (Neighbours::new(*all), Vec::new());
+            for (known, receiver) in known.iter_mut().zip(&self.receivers[numbers.clone()]) {
+                if known.is_none() && !stops() {
+                    cuts.of(*receiver, Some(&mut near), &mut found);
+                    *known = Some(self.block(*receiver, (&cuts, &factors), work, &found));
+                    progress(self.clusters.tree.range(*receiver).len());
+                }
+            }
         };
-        known.into_par_iter().zip(&self.receivers).map_init(Vec::new, build).collect()
+        let mut rest = &mut known[..];
+        let mut tasks = Vec::with_capacity(self.neighbours.len());
+        for neighbours in &self.neighbours {
+            let (own, after) = rest.split_at_mut(neighbours.1.len());
+            tasks.push((neighbours, own));
+            rest = after;
+        }
+        tasks.into_par_iter().for_each(|(neighbours, known)| built(neighbours, known));
+        known
     }
 
     fn block(
@@ -241,21 +268,21 @@ impl<'a, V: Value> Plan<'a, V> {
         receiver: Cluster,
         (cuts, factors): (&Cuts<'_>, &Factors<'_>),
         work: &Work<'_>,
-        found: &mut Vec<Cluster>,
+        found: &[Sender],
     ) -> (Block, u64) {
-        cuts.of(receiver, found);
         let range = self.clusters.tree.range(receiver);
         let first = range.start;
         let parts = &self.clusters.polygons[first..range.end.min(first + work.most)];
         let hull = self.clusters.hull(receiver);
         let worth = work.part * cuts.arriving[receiver.index()];
         let (mut rays, mut column) = (0, Column::default());
-        let columns = (0_u64..).zip(found.iter()).map(|(number, sender)| {
-            let clear = factors.clear(hull.as_deref(), *sender);
+        let columns = (0_u64..).zip(found).map(|(number, Sender { cluster: sender, dim })| {
+            let (sender, dim) = (*sender, *dim);
+            let clear = !dim && factors.clear(hull.as_deref(), sender);
             let worth = worth / cuts.brightness[sender.index()];
-            factors.column(parts, &Link { first, sender: *sender, number, clear, worth }, &mut column);
+            factors.column(parts, &Link { first, sender, number, clear, dim, worth }, &mut column);
             rays += column.cast;
-            (*sender, column.factors.iter().map(|factor| *factor as f32).collect())
+            (sender, column.factors.iter().map(|factor| *factor as f32).collect())
         });
         (Block::new(receiver, parts.len(), columns), rays)
     }

@@ -5,6 +5,7 @@ use super::random::Random;
 use crate::kernel;
 use crate::visibility::Visibility;
 use fredholm::operator::hierarchical::Cluster;
+use std::collections::HashMap;
 
 /// Cuts through the tree, each for the patches of one receiving cluster.
 ///
@@ -35,18 +36,45 @@ const ALIKE: f64 = 0.9;
 /// not alike and some are hidden. Errors of that kind add up.
 const WRONG: f64 = 0.02;
 
-/// Rays that tell how much of a cluster is seen whose middle is not.
-const PROBES: u64 = 64;
-
-/// How many of these would be expected to arrive if it were as much as counts.
+/// How many rays would be expected to arrive at a cluster whose middle is hidden if it brought as much as counts: of so many that it
+/// takes, one does, or it seems hidden.
 const SURE: f64 = 4.0;
+
+/// The most rays that ask it of one receiver, and of receivers near each other, once for all of them.
+const PROBES: u64 = 64;
+const PROBES_TOGETHER: u64 = 256;
+
+/// So many patches of a cluster, one from each part, are looked from and at.
+const PARTS: usize = 16;
 
 /// Another seed than that of any links.
 const SEED: u64 = 0xc075;
 
+/// A cluster of a cut.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sender {
+    pub cluster: Cluster,
+    /// Whether its middle is hidden, and rays found nothing of the rest.
+    pub dim: bool,
+}
+
+/// Receivers near each other, and what seems hidden from all of them.
+#[derive(Debug)]
+pub(super) struct Neighbours {
+    pub all: Cluster,
+    hidden: HashMap<usize, bool>,
+}
+
+impl Neighbours {
+    pub fn new(all: Cluster) -> Self {
+        Self { all, hidden: HashMap::new() }
+    }
+}
+
 impl Cuts<'_> {
-    /// The clusters, in the order of the tree, of which some may be single patches.
-    pub fn of(&self, receiver: Cluster, found: &mut Vec<Cluster>) {
+    /// The clusters, in the order of the tree, of which some may be single patches; `neighbours`, if any, are what the receiver is
+    /// one of.
+    pub fn of(&self, receiver: Cluster, mut neighbours: Option<&mut Neighbours>, found: &mut Vec<Sender>) {
         found.clear();
         let here = self.clusters.whole(receiver);
         let most = self.part * self.arriving[receiver.index()];
@@ -66,11 +94,17 @@ impl Cuts<'_> {
             if blocker.is_some_and(|id| self.hides(id, here, there)) {
                 continue;
             }
-            let counts =
-                || excess > 1.0 && (blocker.is_none() || self.is_seen(receiver, cluster, excess.recip()));
+            let dim = blocker.is_some()
+                && excess > 1.0
+                && self.seems_hidden(
+                    receiver,
+                    cluster,
+                    (SURE * excess).ceil() as u64,
+                    neighbours.as_deref_mut(),
+                );
             match self.clusters.tree.children(cluster) {
-                Some([a, b]) if counts() => stack.extend([b, a]),
-                _ => found.push(cluster),
+                Some([a, b]) if excess > 1.0 && !dim => stack.extend([b, a]),
+                _ => found.push(Sender { cluster, dim }),
             }
         }
     }
@@ -86,19 +120,33 @@ impl Cuts<'_> {
         self.visibility.certainly_blocks_hulls(id, &here.corners(), &there.corners())
     }
 
-    /// Whether more than a part of what a cluster sends to another seems to arrive: a ray does, of as many as would be expected to.
-    fn is_seen(&self, receiver: Cluster, sender: Cluster, part: f64) -> bool {
-        let rays = (SURE * part.recip()).ceil() as u64;
+    /// Whether none arrives of as many rays as it takes, if these are not too many.
+    fn seems_hidden(
+        &self,
+        receiver: Cluster,
+        sender: Cluster,
+        rays: u64,
+        neighbours: Option<&mut Neighbours>,
+    ) -> bool {
+        let from_all = |Neighbours { all, hidden }: &mut Neighbours| {
+            let look = || !self.is_seen(*all, sender, PROBES_TOGETHER);
+            rays <= PROBES_TOGETHER && *hidden.entry(sender.index()).or_insert_with(look)
+        };
+        neighbours.is_some_and(from_all) || rays <= PROBES && !self.is_seen(receiver, sender, rays)
+    }
+
+    /// Whether one of some rays between two clusters arrives: from some patches of one to some of the other, always the same of each
+    /// cluster, which are in a cache for the next that asks.
+    fn is_seen(&self, receiver: Cluster, sender: Cluster, rays: u64) -> bool {
         let ends =
             [receiver, sender].map(|cluster| &self.clusters.polygons[self.clusters.tree.range(cluster)]);
         let mut random = Random::new(SEED, receiver.index() as u64, sender.index() as u64);
-        rays > PROBES
-            || (0..rays).any(|_| {
-                let [x, y] = ends.map(|patches| {
-                    let patch = (random.next() * patches.len() as f64) as usize;
-                    random.point(&patches[patch])
-                });
-                kernel::unoccluded(&x, &y) > 0.0 && self.visibility.unoccluded(x.position, y.position)
-            })
+        (0..rays).any(|_| {
+            let [x, y] = ends.map(|patches| {
+                let part = (random.next() * PARTS as f64) as usize;
+                random.point(&patches[(2 * part + 1) * patches.len() / (2 * PARTS)])
+            });
+            kernel::unoccluded(&x, &y) > 0.0 && self.visibility.unoccluded(x.position, y.position)
+        })
     }
 }

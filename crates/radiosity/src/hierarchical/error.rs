@@ -2,6 +2,7 @@
 //! other rays.
 
 use super::build::{Light, Plan};
+use super::cut::Sender;
 use super::factor::{Column, Link};
 use crate::polygon::Polygon;
 use fredholm::operator::hierarchical::Cluster;
@@ -63,15 +64,18 @@ impl<V: Value> Plan<'_, V> {
         let radiosity = self.clusters.means(u);
         let (cuts, factors) = (self.cuts(&means, part_of_all), self.factors(&means, SEED, true));
         let on = |(found, column): &mut (Vec<_>, Column), (leaf, part): &(Cluster, Polygon)| {
-            cuts.of(*leaf, found);
+            cuts.of(*leaf, None, found);
             let first = self.clusters.tree.range(*leaf).start;
             let most = part_of_all * cuts.arriving[leaf.index()];
-            (0_u64..).zip(found.iter()).fold(V::splat(0.0), |sum, (number, sender)| {
-                let worth = most / cuts.brightness[sender.index()];
-                let link = Link { first, sender: *sender, number, clear: false, worth };
-                factors.column(std::slice::from_ref(part), &link, column);
-                sum + radiosity[sender.index()] * column.factors[0]
-            })
+            (0_u64..).zip(found.iter()).fold(
+                V::splat(0.0),
+                |sum, (number, Sender { cluster: sender, .. })| {
+                    let worth = most / cuts.brightness[sender.index()];
+                    let link = Link { first, sender: *sender, number, clear: false, dim: false, worth };
+                    factors.column(std::slice::from_ref(part), &link, column);
+                    sum + radiosity[sender.index()] * column.factors[0]
+                },
+            )
         };
         at.par_iter().map_init(Default::default, on).collect()
     }

@@ -32,6 +32,8 @@ pub(super) struct Link {
     pub number: u64,
     /// Whether nothing is between.
     pub clear: bool,
+    /// Whether it seems hidden: then rays of a part of the patches speak for all of them.
+    pub dim: bool,
     /// The form factor that is worth one ray: a single patch that sends more has more.
     pub worth: f64,
 }
@@ -65,6 +67,9 @@ const NEAR: f64 = 0.6;
 const MOST_RAYS: u32 = 16;
 const LEAST_RAYS: u32 = 8;
 const NEAR_MATTERS: f64 = 0.25;
+
+/// Of patches that gather from what seems hidden, one in so many casts rays, and what these find counts as many times.
+const DIM: usize = 4;
 
 /// How often a ray is drawn anew that would leave or arrive at a back.
 const TRIES: usize = 4;
@@ -126,11 +131,19 @@ impl Factors<'_> {
         let Column { factors, rays, cast } = column;
         rays.clear();
         let begin = Random::new(self.seed, link.first as u64, link.number).next();
+        // Where each seems to see nothing, some look for all.
+        let step = if link.dim && parts.len() >= DIM { DIM } else { 1 };
+        let offset = (begin * step as f64) as usize;
         for (k, (whole, part)) in
             factors.iter_mut().zip(parts).enumerate().filter(|(_, (whole, _))| **whole > 0.0)
         {
+            if k % step != offset {
+                *whole = 0.0;
+                continue;
+            }
             let wanted = ((*whole / link.worth).ceil() as u32).clamp(1, MOST_RAYS);
-            if *whole > NEAR_MATTERS * link.worth && self.is_near(part, link.sender) {
+            *whole *= step as f64;
+            if !link.dim && *whole > NEAR_MATTERS * link.worth && self.is_near(part, link.sender) {
                 let near = wanted.max(LEAST_RAYS);
                 *whole *= self.seen_near(part, link, k, near);
                 *cast += u64::from(near);
