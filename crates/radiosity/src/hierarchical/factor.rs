@@ -71,6 +71,9 @@ const NEAR_MATTERS: f64 = 0.25;
 /// Of patches that gather from what seems hidden, one in so many casts rays, and what these find counts as many times.
 const DIM: usize = 4;
 
+/// Of links that are less than this part of what is worth a ray some are drawn that speak for the others: these would be half of all.
+const SMALL: f64 = 1.0 / 128.0;
+
 /// How often a ray is drawn anew that would leave or arrive at a back.
 const TRIES: usize = 4;
 
@@ -130,7 +133,14 @@ impl Factors<'_> {
     fn cast(&self, parts: &[Polygon], link: &Link, column: &mut Column) {
         let Column { factors, rays, cast } = column;
         rays.clear();
-        let begin = Random::new(self.seed, link.first as u64, link.number).next();
+        let mut random = Random::new(self.seed, link.first as u64, link.number);
+        let begin = random.next();
+        let most = factors.iter().fold(0.0, |most: f64, factor| most.max(*factor));
+        let chance = most / (SMALL * link.worth);
+        if chance < 1.0 && !self.fine {
+            let factor = if random.next() < chance { chance.recip() } else { 0.0 };
+            factors.iter_mut().for_each(|whole| *whole *= factor);
+        }
         // Where each seems to see nothing, some look for all.
         let step = if link.dim && parts.len() >= DIM { DIM } else { 1 };
         let offset = (begin * step as f64) as usize;
