@@ -1,8 +1,8 @@
 //! From patches to links: a tree, then cuts, then the factors of each link.
 
 use super::block::Block;
-use super::clusters::{Clusters, up_to};
-use super::cut::{Cuts, Neighbours, Sender};
+use super::clusters::{Clusters, parts, up_to};
+use super::cut::{Cuts, Hidden, Sender};
 use super::factor::{Column, Factors, Link};
 use super::kept::Kept;
 use super::{Hierarchical, Statistics};
@@ -16,7 +16,6 @@ use fredholm::relax::{Relaxation, Stop, relax};
 use fredholm::system::{System, SystemError};
 use fredholm::value::{Value, max_norm};
 use rayon::prelude::*;
-use std::ops::Range;
 use std::sync::Arc;
 
 /// What is known of the light, or guessed, by patch: how bright it is and what arrives, in W/m², of the brightest channel.
@@ -69,9 +68,12 @@ const SKETCH: (f64, usize) = (1e-3, 20);
 /// A scene that reflects more than that in the mean has this ambient term.
 const MOST_REFLECTED: f64 = 0.95;
 
-/// Patches that share a cut, and patches whose cuts share what seems hidden.
+/// Patches that share a cut, and patches whose cuts share what seems hidden: some, and in large scenes more.
 const TOGETHER: usize = 16;
-const NEIGHBOURS: usize = 256;
+const NEIGHBOURS: [usize; 2] = [256, 4096];
+
+/// So many parts of a scene at least are done by themselves: more than there are cores, mostly.
+const REGIONS: usize = 64;
 
 /// Cuts from which it is told how many links there will be.
 const LOOKS: usize = 256;
@@ -82,8 +84,6 @@ pub struct Plan<'a, V> {
     pub(super) visibility: &'a Visibility,
     pub(super) clusters: Arc<Clusters>,
     receivers: Vec<Cluster>,
-    /// Receivers near each other: the cluster of all their patches, and their numbers.
-    neighbours: Vec<(Cluster, Range<usize>)>,
     shaped: bool,
 }
 
@@ -91,18 +91,8 @@ impl<'a, V: Value> Plan<'a, V> {
     /// For these patches, which `visibility` is of.
     pub fn new(patches: &'a Patches<V>, visibility: &'a Visibility) -> Self {
         let clusters = Clusters::new(patches, visibility);
-        let tree = &clusters.tree;
-        let receivers = up_to(tree, TOGETHER);
-        let mut begin = 0;
-        let neighbours = up_to(tree, NEIGHBOURS).into_iter().map(|all| {
-            let end = tree.range(all).end;
-            let count =
-                receivers[begin..].iter().take_while(|receiver| tree.range(**receiver).start < end).count();
-            begin += count;
-            (all, begin - count..begin)
-        });
-        let neighbours = neighbours.collect();
-        Self { patches, visibility, receivers, neighbours, clusters: Arc::new(clusters), shaped: false }
+        let receivers = up_to(&clusters.tree, TOGETHER);
+        Self { patches, visibility, clusters: Arc::new(clusters), receivers, shaped: false }
     }
 
     /// With links that know how bright the parts of a cluster are beside the whole, and send more of what is near and bright: better for
@@ -119,7 +109,7 @@ impl<'a, V: Value> Plan<'a, V> {
         let cuts = self.cuts(&means, part);
         let bytes = |receiver: &Cluster| {
             let mut found = Vec::new();
-            cuts.of(*receiver, None, &mut found);
+            cuts.of(*receiver, &mut [], &mut found);
             (found.len() * (size_of::<Cluster>() + 4 * self.clusters.tree.range(*receiver).len())) as u64
         };
         let looks: u64 = looked.par_iter().map(bytes).sum();
@@ -239,27 +229,34 @@ impl<'a, V: Value> Plan<'a, V> {
     ) -> Vec<Option<(Block, u64)>> {
         let means = self.means(work.light);
         let (cuts, factors) = (self.cuts(&means, work.part), self.factors(&means, work.seed, false));
-        let built = |(all, numbers): &(Cluster, Range<usize>), known: &mut [Option<(Block, u64)>]| {
-            if stops() || known.iter().all(Option::is_some) {
-                return;
-            }
-            let (mut near, mut found) = (Neighbours::new(*all), Vec::new());
-            for (known, receiver) in known.iter_mut().zip(&self.receivers[numbers.clone()]) {
-                if known.is_none() && !stops() {
-                    cuts.of(*receiver, Some(&mut near), &mut found);
+        let tree = &self.clusters.tree;
+        let [few, many] = NEIGHBOURS;
+        let regions = up_to(tree, (self.patches.len() / REGIONS).clamp(few, many));
+        let mut rest = (&self.receivers[..], &mut known[..]);
+        let mut tasks = Vec::with_capacity(regions.len());
+        for region in regions {
+            let count =
+                rest.0.partition_point(|receiver| tree.range(*receiver).start < tree.range(region).end);
+            let ((receivers, others), (known, after)) = (rest.0.split_at(count), rest.1.split_at_mut(count));
+            tasks.push((region, receivers, known));
+            rest = (others, after);
+        }
+        tasks.into_par_iter().for_each(|(region, receivers, known)| {
+            let mut wanted = receivers.iter().zip(known).filter(|(_, known)| known.is_none()).peekable();
+            let (mut hidden, mut found) = ([region; 2].map(Hidden::from), Vec::new());
+            for near in parts(tree, region, few) {
+                hidden[1] = Hidden::from(near);
+                let end = tree.range(near).end;
+                while let Some((receiver, known)) = wanted.next_if(|(at, _)| tree.range(**at).start < end) {
+                    if stops() {
+                        return;
+                    }
+                    cuts.of(*receiver, &mut hidden, &mut found);
                     *known = Some(self.block(*receiver, (&cuts, &factors), work, &found));
-                    progress(self.clusters.tree.range(*receiver).len());
+                    progress(tree.range(*receiver).len());
                 }
             }
-        };
-        let mut rest = &mut known[..];
-        let mut tasks = Vec::with_capacity(self.neighbours.len());
-        for neighbours in &self.neighbours {
-            let (own, after) = rest.split_at_mut(neighbours.1.len());
-            tasks.push((neighbours, own));
-            rest = after;
-        }
-        tasks.into_par_iter().for_each(|(neighbours, known)| built(neighbours, known));
+        });
         known
     }
 

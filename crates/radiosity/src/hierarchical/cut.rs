@@ -58,23 +58,24 @@ pub(super) struct Sender {
     pub dim: bool,
 }
 
-/// Receivers near each other, and what seems hidden from all of them.
+/// What seems hidden from all of a large cluster, of what somebody asked about.
 #[derive(Debug)]
-pub(super) struct Neighbours {
-    pub all: Cluster,
-    hidden: HashMap<usize, bool>,
+pub(super) struct Hidden {
+    from: Cluster,
+    known: HashMap<usize, bool>,
 }
 
-impl Neighbours {
-    pub fn new(all: Cluster) -> Self {
-        Self { all, hidden: HashMap::new() }
+impl Hidden {
+    /// Nothing yet.
+    pub fn from(from: Cluster) -> Self {
+        Self { from, known: HashMap::new() }
     }
 }
 
 impl Cuts<'_> {
-    /// The clusters, in the order of the tree, of which some may be single patches; `neighbours`, if any, are what the receiver is
-    /// one of.
-    pub fn of(&self, receiver: Cluster, mut neighbours: Option<&mut Neighbours>, found: &mut Vec<Sender>) {
+    /// The clusters, in the order of the tree, of which some may be single patches; `hidden` is of clusters that the receiver is a
+    /// part of, the largest first.
+    pub fn of(&self, receiver: Cluster, hidden: &mut [Hidden], found: &mut Vec<Sender>) {
         found.clear();
         let here = self.clusters.whole(receiver);
         let most = self.part * self.arriving[receiver.index()];
@@ -96,12 +97,7 @@ impl Cuts<'_> {
             }
             let dim = blocker.is_some()
                 && excess > 1.0
-                && self.seems_hidden(
-                    receiver,
-                    cluster,
-                    (SURE * excess).ceil() as u64,
-                    neighbours.as_deref_mut(),
-                );
+                && self.seems_hidden(receiver, cluster, (SURE * excess).ceil() as u64, hidden);
             match self.clusters.tree.children(cluster) {
                 Some([a, b]) if excess > 1.0 && !dim => stack.extend([b, a]),
                 _ => found.push(Sender { cluster, dim }),
@@ -121,18 +117,13 @@ impl Cuts<'_> {
     }
 
     /// Whether none arrives of as many rays as it takes, if these are not too many.
-    fn seems_hidden(
-        &self,
-        receiver: Cluster,
-        sender: Cluster,
-        rays: u64,
-        neighbours: Option<&mut Neighbours>,
-    ) -> bool {
-        let from_all = |Neighbours { all, hidden }: &mut Neighbours| {
-            let look = || !self.is_seen(*all, sender, PROBES_TOGETHER);
-            rays <= PROBES_TOGETHER && *hidden.entry(sender.index()).or_insert_with(look)
+    fn seems_hidden(&self, receiver: Cluster, sender: Cluster, rays: u64, hidden: &mut [Hidden]) -> bool {
+        let from_all = |Hidden { from, known }: &mut Hidden| {
+            let look = || !self.is_seen(*from, sender, PROBES_TOGETHER);
+            *known.entry(sender.index()).or_insert_with(look)
         };
-        neighbours.is_some_and(from_all) || rays <= PROBES && !self.is_seen(receiver, sender, rays)
+        rays <= PROBES_TOGETHER && hidden.iter_mut().any(from_all)
+            || rays <= PROBES && !self.is_seen(receiver, sender, rays)
     }
 
     /// Whether one of some rays between two clusters arrives: from some patches of one to some of the other, always the same of each

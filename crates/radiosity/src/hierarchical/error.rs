@@ -64,7 +64,7 @@ impl<V: Value> Plan<'_, V> {
         let radiosity = self.clusters.means(u);
         let (cuts, factors) = (self.cuts(&means, part_of_all), self.factors(&means, SEED, true));
         let on = |(found, column): &mut (Vec<_>, Column), (leaf, part): &(Cluster, Polygon)| {
-            cuts.of(*leaf, None, found);
+            cuts.of(*leaf, &mut [], found);
             let first = self.clusters.tree.range(*leaf).start;
             let most = part_of_all * cuts.arriving[leaf.index()];
             (0_u64..).zip(found.iter()).fold(
