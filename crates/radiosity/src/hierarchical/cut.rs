@@ -40,6 +40,9 @@ const WRONG: f64 = 0.02;
 /// takes, one does, or it seems hidden.
 const SURE: f64 = 4.0;
 
+/// How many times as many it takes of receivers near each other, of which some may see more than others.
+const SURE_OF_ALL: u64 = 4;
+
 /// The most rays that ask it of one receiver, and of receivers near each other, once for all of them.
 const PROBES: u64 = 64;
 const PROBES_TOGETHER: u64 = 256;
@@ -62,7 +65,14 @@ pub(super) struct Sender {
 #[derive(Debug)]
 pub(super) struct Hidden {
     from: Cluster,
-    known: HashMap<usize, bool>,
+    /// How many rays to a cluster found nothing, or that one did.
+    known: HashMap<usize, Looked>,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Looked {
+    InVain(u64),
+    Seen,
 }
 
 impl Hidden {
@@ -118,26 +128,30 @@ impl Cuts<'_> {
 
     /// Whether none arrives of as many rays as it takes, if these are not too many.
     fn seems_hidden(&self, receiver: Cluster, sender: Cluster, rays: u64, hidden: &mut [Hidden]) -> bool {
+        let for_all = SURE_OF_ALL * rays;
         let from_all = |Hidden { from, known }: &mut Hidden| {
-            let look = || !self.is_seen(*from, sender, PROBES_TOGETHER);
-            *known.entry(sender.index()).or_insert_with(look)
+            let looked = known.entry(sender.index()).or_insert(Looked::InVain(0));
+            if let Looked::InVain(cast) = *looked
+                && cast < rays
+            {
+                let seen = (cast..rays).any(|ray| self.arrives(*from, sender, ray));
+                *looked = if seen { Looked::Seen } else { Looked::InVain(for_all) };
+            }
+            matches!(looked, Looked::InVain(_))
         };
-        rays <= PROBES_TOGETHER && hidden.iter_mut().any(from_all)
-            || rays <= PROBES && !self.is_seen(receiver, sender, rays)
+        for_all <= PROBES_TOGETHER && hidden.iter_mut().any(from_all)
+            || rays <= PROBES && !(0..rays).any(|ray| self.arrives(receiver, sender, ray))
     }
 
-    /// Whether one of some rays between two clusters arrives: from some patches of one to some of the other, always the same of each
-    /// cluster, which are in a cache for the next that asks.
-    fn is_seen(&self, receiver: Cluster, sender: Cluster, rays: u64) -> bool {
-        let ends =
-            [receiver, sender].map(|cluster| &self.clusters.polygons[self.clusters.tree.range(cluster)]);
-        let mut random = Random::new(SEED, receiver.index() as u64, sender.index() as u64);
-        (0..rays).any(|_| {
-            let [x, y] = ends.map(|patches| {
-                let part = (random.next() * PARTS as f64) as usize;
-                random.point(&patches[(2 * part + 1) * patches.len() / (2 * PARTS)])
-            });
-            kernel::unoccluded(&x, &y) > 0.0 && self.visibility.unoccluded(x.position, y.position)
-        })
+    /// Whether a ray between two clusters does: from some patch of one to some of the other, of a few that are in a cache for the
+    /// next that asks.
+    fn arrives(&self, receiver: Cluster, sender: Cluster, ray: u64) -> bool {
+        let mut random = Random::new(SEED + ray, receiver.index() as u64, sender.index() as u64);
+        let [x, y] = [receiver, sender].map(|cluster| {
+            let patches = &self.clusters.polygons[self.clusters.tree.range(cluster)];
+            let part = (random.next() * PARTS as f64) as usize;
+            random.point(&patches[(2 * part + 1) * patches.len() / (2 * PARTS)])
+        });
+        kernel::unoccluded(&x, &y) > 0.0 && self.visibility.unoccluded(x.position, y.position)
     }
 }
