@@ -2,7 +2,7 @@
 
 use super::block::Block;
 use super::clusters::{Clusters, parts, up_to};
-use super::cut::{Cuts, Hidden, Sender};
+use super::cut::{Cuts, Hidden};
 use super::factor::{Column, Factors, Link};
 use super::kept::Kept;
 use super::{Hierarchical, Statistics};
@@ -265,7 +265,7 @@ impl<'a, V: Value> Plan<'a, V> {
         receiver: Cluster,
         (cuts, factors): (&Cuts<'_>, &Factors<'_>),
         work: &Work<'_>,
-        found: &[Sender],
+        found: &[Cluster],
     ) -> (Block, u64) {
         let range = self.clusters.tree.range(receiver);
         let first = range.start;
@@ -273,11 +273,10 @@ impl<'a, V: Value> Plan<'a, V> {
         let hull = self.clusters.hull(receiver);
         let worth = work.part * cuts.arriving[receiver.index()];
         let (mut rays, mut column) = (0, Column::default());
-        let columns = (0_u64..).zip(found).map(|(number, Sender { cluster: sender, dim })| {
-            let (sender, dim) = (*sender, *dim);
-            let clear = !dim && factors.clear(hull.as_deref(), sender);
+        let columns = (0_u64..).zip(found).map(|(number, &sender)| {
+            let clear = factors.clear(hull.as_deref(), sender);
             let worth = worth / cuts.brightness[sender.index()];
-            factors.column(parts, &Link { first, sender, number, clear, dim, worth }, &mut column);
+            factors.column(parts, &Link { first, sender, number, clear, worth }, &mut column);
             rays += column.cast;
             (sender, column.factors.iter().map(|factor| *factor as f32).collect())
         });

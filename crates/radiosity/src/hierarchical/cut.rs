@@ -53,14 +53,6 @@ const PARTS: usize = 16;
 /// Another seed than that of any links.
 const SEED: u64 = 0xc075;
 
-/// A cluster of a cut.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Sender {
-    pub cluster: Cluster,
-    /// Whether its middle is hidden, and rays found nothing of the rest.
-    pub dim: bool,
-}
-
 /// What seems hidden from all of a large cluster, of what somebody asked about.
 #[derive(Debug)]
 pub(super) struct Hidden {
@@ -85,7 +77,7 @@ impl Hidden {
 impl Cuts<'_> {
     /// The clusters, in the order of the tree, of which some may be single patches; `hidden` is of clusters that the receiver is a
     /// part of, the largest first.
-    pub fn of(&self, receiver: Cluster, hidden: &mut [Hidden], found: &mut Vec<Sender>) {
+    pub fn of(&self, receiver: Cluster, hidden: &mut [Hidden], found: &mut Vec<Cluster>) {
         found.clear();
         let here = self.clusters.whole(receiver);
         let most = self.part * self.arriving[receiver.index()];
@@ -105,12 +97,12 @@ impl Cuts<'_> {
             if blocker.is_some_and(|id| self.hides(id, here, there)) {
                 continue;
             }
-            let dim = blocker.is_some()
-                && excess > 1.0
-                && self.seems_hidden(receiver, cluster, (SURE * excess).ceil() as u64, hidden);
+            let rays = (SURE * excess).ceil() as u64;
+            let counts =
+                excess > 1.0 && (blocker.is_none() || !self.seems_hidden(receiver, cluster, rays, hidden));
             match self.clusters.tree.children(cluster) {
-                Some([a, b]) if excess > 1.0 && !dim => stack.extend([b, a]),
-                _ => found.push(Sender { cluster, dim }),
+                Some([a, b]) if counts => stack.extend([b, a]),
+                _ => found.push(cluster),
             }
         }
     }

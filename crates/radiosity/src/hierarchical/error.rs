@@ -2,7 +2,6 @@
 //! other rays.
 
 use super::build::{Light, Plan};
-use super::cut::Sender;
 use super::factor::{Column, Link};
 use crate::polygon::Polygon;
 use fredholm::operator::hierarchical::Cluster;
@@ -59,23 +58,20 @@ impl<V: Value> Plan<'_, V> {
 
     /// F u on parts of patches, asked anew: with an eighth of what a link may bring, and other rays.
     pub(crate) fn arriving(&self, u: &[V], light: &Light, part: f64, at: &[(Cluster, Polygon)]) -> Vec<V> {
-        let part_of_all = part / FINER;
+        let part = part / FINER;
         let means = self.means(light);
         let radiosity = self.clusters.means(u);
-        let (cuts, factors) = (self.cuts(&means, part_of_all), self.factors(&means, SEED, true));
-        let on = |(found, column): &mut (Vec<_>, Column), (leaf, part): &(Cluster, Polygon)| {
+        let (cuts, factors) = (self.cuts(&means, part), self.factors(&means, SEED, true));
+        let on = |(found, column): &mut (Vec<_>, Column), (leaf, place): &(Cluster, Polygon)| {
             cuts.of(*leaf, &mut [], found);
             let first = self.clusters.tree.range(*leaf).start;
-            let most = part_of_all * cuts.arriving[leaf.index()];
-            (0_u64..).zip(found.iter()).fold(
-                V::splat(0.0),
-                |sum, (number, Sender { cluster: sender, .. })| {
-                    let worth = most / cuts.brightness[sender.index()];
-                    let link = Link { first, sender: *sender, number, clear: false, dim: false, worth };
-                    factors.column(std::slice::from_ref(part), &link, column);
-                    sum + radiosity[sender.index()] * column.factors[0]
-                },
-            )
+            let most = part * cuts.arriving[leaf.index()];
+            (0_u64..).zip(found.iter()).fold(V::splat(0.0), |sum, (number, sender)| {
+                let worth = most / cuts.brightness[sender.index()];
+                let link = Link { first, sender: *sender, number, clear: false, worth };
+                factors.column(std::slice::from_ref(place), &link, column);
+                sum + radiosity[sender.index()] * column.factors[0]
+            })
         };
         at.par_iter().map_init(Default::default, on).collect()
     }

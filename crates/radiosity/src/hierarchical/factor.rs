@@ -32,8 +32,6 @@ pub(super) struct Link {
     pub number: u64,
     /// Whether nothing is between.
     pub clear: bool,
-    /// Whether it seems hidden: then rays of a part of the patches speak for all of them.
-    pub dim: bool,
     /// The form factor that is worth one ray: a single patch that sends more has more.
     pub worth: f64,
 }
@@ -67,9 +65,6 @@ const NEAR: f64 = 0.6;
 const MOST_RAYS: u32 = 16;
 const LEAST_RAYS: u32 = 8;
 const NEAR_MATTERS: f64 = 0.25;
-
-/// Of patches that gather from what seems hidden, one in so many casts rays, and what these find counts as many times.
-const DIM: usize = 4;
 
 /// Of links that are less than this part of what is worth a ray some are drawn that speak for the others: these would be half of all.
 const SMALL: f64 = 1.0 / 128.0;
@@ -141,19 +136,11 @@ impl Factors<'_> {
             let factor = if random.next() < chance { chance.recip() } else { 0.0 };
             factors.iter_mut().for_each(|whole| *whole *= factor);
         }
-        // Where each seems to see nothing, some look for all.
-        let step = if link.dim && parts.len() >= DIM { DIM } else { 1 };
-        let offset = (begin * step as f64) as usize;
         for (k, (whole, part)) in
             factors.iter_mut().zip(parts).enumerate().filter(|(_, (whole, _))| **whole > 0.0)
         {
-            if k % step != offset {
-                *whole = 0.0;
-                continue;
-            }
             let wanted = ((*whole / link.worth).ceil() as u32).clamp(1, MOST_RAYS);
-            *whole *= step as f64;
-            if !link.dim && *whole > NEAR_MATTERS * link.worth && self.is_near(part, link.sender) {
+            if *whole > NEAR_MATTERS * link.worth && self.is_near(part, link.sender) {
                 let near = wanted.max(LEAST_RAYS);
                 *whole *= self.seen_near(part, link, k, near);
                 *cast += u64::from(near);
