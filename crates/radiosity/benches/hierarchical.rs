@@ -62,12 +62,15 @@ struct Asked {
     reference: bool,
 }
 
+/// Patches of a room of the building.
+const A_ROOM: f64 = 6000.0;
+
 /// A scene that is worth so many patches.
 fn scene(name: &str, count: usize) -> Scene<Rgb> {
     match name {
         "boxes" => scenes::boxes(),
         "terrain" => scenes::terrain(count),
-        "building" => scenes::building(((count as f64 / 2500.0).sqrt().ceil() as usize).clamp(2, 20)),
+        "building" => scenes::building(((count as f64 / A_ROOM).sqrt().ceil() as usize).max(2)),
         _ => cornell_box(),
     }
 }

@@ -271,3 +271,48 @@ fn to_elements(x: DVec3, n: DVec3, elements: &[Element]) -> f64 {
 }
 
 const QUARTERS: [[f64; 2]; 4] = [[0.25, 0.25], [0.25, 0.75], [0.75, 0.25], [0.75, 0.75]];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::patches::Patches;
+    use crate::scene::cornell_box;
+
+    /// Seeds, of which one in ten draws.
+    const SEEDS: u64 = 5000;
+
+    #[test]
+    fn links_that_are_drawn_count_for_those_that_are_not() {
+        let scene = cornell_box();
+        let patches = Patches::new(&scene, 0.1).unwrap_or_else(|error| unreachable!("{error}"));
+        let visibility = Visibility::new(&scene.polygons());
+        let clusters = Clusters::new(&patches, &visibility);
+        let factors =
+            |seed| Factors { clusters: &clusters, visibility: &visibility, seed, fine: false, shape: None };
+        let leaves: Vec<Cluster> = clusters.tree.leaves().collect();
+        let pairs = (0..leaves.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+        let sees = |(i, j): &(usize, usize)| {
+            let [a, b] = [i, j].map(|k| &clusters.polygons[*k]);
+            visibility.certainly_clear(a, b) && a.centroid().distance(b.centroid()) > 0.5
+        };
+        let seen = pairs.filter(sees).find_map(|(i, j)| {
+            let parts = &clusters.polygons[i..=i];
+            let mut column = Column::default();
+            let link = Link { first: i, sender: leaves[j], number: 0, clear: true, worth: 1.0 };
+            factors(0).column(parts, &link, &mut column);
+            let whole = column.factors[0];
+            (whole > 0.0).then_some((parts, link, whole))
+        });
+        let Some((parts, link, whole)) = seen else { panic!("two patches see each other") };
+        let link = Link { clear: false, worth: 10.0 * whole / SMALL, ..link };
+        let (mut sum, mut drawn, mut column) = (0.0, 0, Column::default());
+        for seed in 0..SEEDS {
+            factors(seed).column(parts, &link, &mut column);
+            sum += column.factors[0];
+            drawn += u64::from(column.factors[0] > 0.0);
+        }
+        assert!((drawn as f64 / SEEDS as f64 - 0.1).abs() < 0.02, "{drawn} of {SEEDS} are drawn");
+        let mean = sum / SEEDS as f64;
+        assert!((mean / whole - 1.0).abs() < 0.2, "{mean} in the mean of {whole}");
+    }
+}

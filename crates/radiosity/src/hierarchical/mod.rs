@@ -3,7 +3,8 @@
 //! (F̃ u)_i = Σ_C F_iC ū_C, over a cut through a tree of clusters C, with ū_C the mean of u over C by area. Patches that are near
 //! each other and face alike share a cut. A cluster is cut in two where its link could bring more than a part of all that arrives,
 //! so there are as many links as the error asks for, whatever the number of patches: O(n) in all. F_iC is found by formula, and
-//! what of it arrives by rays, one or more to a link, each from another point to another: what they miss is noise with a mean of 0.
+//! what of it arrives by rays, one or more to a link, each from another point to another: what they miss is noise with a mean of 0. Of
+//! links that hardly count some are drawn that count for all of these, which has the same mean.
 //! (Hanrahan, Salzman & Aupperle 1991; Smits, Arvo & Greenberg 1994; Walter et al. 2005.)
 
 mod block;
