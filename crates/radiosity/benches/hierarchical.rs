@@ -63,7 +63,7 @@ struct Asked {
 }
 
 /// Patches of a room of the building.
-const A_ROOM: f64 = 6000.0;
+const A_ROOM: f64 = 4500.0;
 
 /// A scene that is worth so many patches.
 fn scene(name: &str, count: usize) -> Scene<Rgb> {

@@ -75,8 +75,9 @@ const NEIGHBOURS: [usize; 2] = [256, 4096];
 /// So many parts of a scene at least are done by themselves: more than there are cores, mostly.
 const REGIONS: usize = 64;
 
-/// Cuts from which it is told how many links there will be.
-const LOOKS: usize = 256;
+/// Receivers whose links tell how many there will be, and the seed of their rays.
+const LOOKS: usize = 64;
+const LOOKS_SEED: u64 = 0x100c;
 
 /// Patches in clusters, before there are links.
 pub struct Plan<'a, V> {
@@ -105,12 +106,13 @@ impl<'a, V: Value> Plan<'a, V> {
     pub fn bytes(&self, light: &Light, part: f64) -> u64 {
         let step = self.receivers.len().div_ceil(LOOKS).max(1);
         let looked: Vec<Cluster> = self.receivers.iter().copied().step_by(step).collect();
+        let work = Work { light, part, seed: LOOKS_SEED, most: TOGETHER };
         let means = self.means(light);
-        let cuts = self.cuts(&means, part);
+        let (cuts, factors) = (self.cuts(&means, part), self.factors(&means, work.seed, false));
         let bytes = |receiver: &Cluster| {
             let mut found = Vec::new();
             cuts.of(*receiver, &mut [], &mut found);
-            (found.len() * (size_of::<Cluster>() + 4 * self.clusters.tree.range(*receiver).len())) as u64
+            self.block(*receiver, (&cuts, &factors), &work, &found).0.bytes()
         };
         let looks: u64 = looked.par_iter().map(bytes).sum();
         looks * self.receivers.len() as u64 / looked.len().max(1) as u64 + self.tree_bytes()
