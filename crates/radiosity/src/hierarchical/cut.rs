@@ -120,14 +120,12 @@ impl Cuts<'_> {
 
     /// Whether none arrives of as many rays as it takes, if these are not too many.
     fn seems_hidden(&self, receiver: Cluster, sender: Cluster, rays: u64, hidden: &mut [Hidden]) -> bool {
-        let for_all = SURE_OF_ALL * rays;
+        let for_all = rays.saturating_mul(SURE_OF_ALL);
         let from_all = |Hidden { from, known }: &mut Hidden| {
             let looked = known.entry(sender.index()).or_insert(Looked::InVain(0));
-            if let Looked::InVain(cast) = *looked
-                && cast < rays
-            {
-                let seen = (cast..rays).any(|ray| self.arrives(*from, sender, ray));
-                *looked = if seen { Looked::Seen } else { Looked::InVain(for_all) };
+            if let Looked::InVain(cast) = *looked {
+                let seen = (cast..for_all).any(|ray| self.arrives(*from, sender, ray));
+                *looked = if seen { Looked::Seen } else { Looked::InVain(cast.max(for_all)) };
             }
             matches!(looked, Looked::InVain(_))
         };
