@@ -57,14 +57,14 @@ const SEED: u64 = 0xc075;
 #[derive(Debug)]
 pub(super) struct Hidden {
     from: Cluster,
-    /// How many rays to a cluster found nothing, or that one did.
+    /// How many rays to a cluster found nothing, or which was the first that did: the answer is the same whoever asks before.
     known: HashMap<usize, Looked>,
 }
 
 #[derive(Clone, Copy, Debug)]
 enum Looked {
     InVain(u64),
-    Seen,
+    Seen(u64),
 }
 
 impl Hidden {
@@ -124,10 +124,13 @@ impl Cuts<'_> {
         let from_all = |Hidden { from, known }: &mut Hidden| {
             let looked = known.entry(sender.index()).or_insert(Looked::InVain(0));
             if let Looked::InVain(cast) = *looked {
-                let seen = (cast..for_all).any(|ray| self.arrives(*from, sender, ray));
-                *looked = if seen { Looked::Seen } else { Looked::InVain(cast.max(for_all)) };
+                let seen = (cast..for_all).find(|ray| self.arrives(*from, sender, *ray));
+                *looked = seen.map_or(Looked::InVain(cast.max(for_all)), Looked::Seen);
             }
-            matches!(looked, Looked::InVain(_))
+            match *looked {
+                Looked::InVain(_) => true,
+                Looked::Seen(first) => first >= for_all,
+            }
         };
         for_all <= PROBES_TOGETHER && hidden.iter_mut().any(from_all)
             || rays <= PROBES && !(0..rays).any(|ray| self.arrives(receiver, sender, ray))
