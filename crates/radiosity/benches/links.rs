@@ -2,7 +2,7 @@
 //! with them; and Gauss–Seidel and Southwell to a residual of 10⁻² on links, beside the same with rows and columns written out.
 //!
 //! `cargo bench -p radiosity --bench links [-- PATCHES]`: 100 000 in a hall with boxes if none are given. The bytes are those of
-//! the links alone, four each; what else is read, the means and who sends, counts as time.
+//! the links alone, of factors and of who sends; what else is read, the means, counts as time.
 #![expect(clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark prints what it measures")]
 
 #[expect(dead_code, reason = "one of its scenes is enough")]
@@ -32,10 +32,11 @@ fn main() {
     let links = plan.assemble(&light, 0.1, 1, |_| ());
     let told = links.statistics();
     println!(
-        "{} threads, {} patches, {} links, {} MB in all",
+        "{} threads, {} patches, {} links of {} MB, {} MB in all",
         rayon::current_num_threads(),
         told.patches,
         told.links,
+        told.link_bytes >> 20,
         told.bytes >> 20
     );
     measure("numbers", &links, |_| 1.0_f64);
@@ -98,7 +99,7 @@ fn solve<F: Rows + Columns>(name: &str, operator: &F, patches: &Patches<Rgb>, sw
 
 fn measure<V: Value>(name: &str, links: &Hierarchical, value: impl Fn(usize) -> V) {
     let n = links.statistics().patches;
-    let words: Vec<u64> = (0..links.statistics().links / 2).collect();
+    let words: Vec<u64> = (0..links.statistics().link_bytes / 8).collect();
     let u: Vec<V> = (0..n).map(value).collect();
     let (source, coefficient) = (vec![V::splat(1.0); n], vec![V::splat(0.5); n]);
     let mut relaxation = GaussSeidel::new(System::new(&source, &coefficient, links).unwrap());

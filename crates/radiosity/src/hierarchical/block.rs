@@ -5,35 +5,98 @@ use fredholm::value::Value;
 use std::ops::Range;
 
 /// F_iC for the patches i of a cluster and the clusters C of its cut.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Block {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Block<'a> {
     receiver: Cluster,
     patches: usize,
-    senders: Box<[Cluster]>,
+    senders: &'a [Cluster],
     /// Column by column: of all patches from the first sender, then from the next.
-    factors: Box<[f32]>,
+    factors: &'a [f32],
+    rays: u64,
 }
 
-impl Block {
-    /// From senders and their factors, column by column.
-    pub fn from_parts(receiver: Cluster, patches: usize, senders: Vec<Cluster>, factors: Vec<f32>) -> Self {
-        Self { receiver, patches, senders: senders.into(), factors: factors.into() }
-    }
+/// The blocks of receivers near each other, without a gap: an action reads them as fast as memory is, which it does not where each is
+/// in a place of its own (1.9 times what reading as many bytes takes, and 1.4 so).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Blocks {
+    spans: Vec<Span>,
+    senders: Vec<Cluster>,
+    factors: Vec<f32>,
+}
 
-    /// From columns, of which those are left out that nothing comes from.
-    pub fn new(
-        receiver: Cluster,
-        patches: usize,
-        columns: impl Iterator<Item = (Cluster, Vec<f32>)>,
-    ) -> Self {
-        let (mut senders, mut factors) = (Vec::new(), Vec::new());
-        for (sender, column) in columns.filter(|(_, column)| column.iter().any(|factor| *factor != 0.0)) {
-            senders.push(sender);
-            factors.extend(column);
+/// A block, by where its senders and factors end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Span {
+    receiver: Cluster,
+    patches: u32,
+    senders: usize,
+    factors: usize,
+    rays: u64,
+}
+
+impl Blocks {
+    /// Adds a column to the block that is being made, unless nothing comes from there.
+    pub fn add(&mut self, sender: Cluster, factors: &[f64]) {
+        let narrow = factors.iter().map(|factor| *factor as f32);
+        if narrow.clone().any(|factor| factor != 0.0) {
+            self.senders.push(sender);
+            self.factors.extend(narrow);
         }
-        Self::from_parts(receiver, patches, senders, factors)
     }
 
+    /// Ends the block that is being made, for so many patches of a cluster, at the cost of so many rays.
+    pub fn close(&mut self, receiver: Cluster, patches: usize, rays: u64) {
+        let (senders, factors) = (self.senders.len(), self.factors.len());
+        self.spans.push(Span { receiver, patches: patches as u32, senders, factors, rays });
+    }
+
+    /// Gives back memory that there is no use for.
+    pub fn shrink(&mut self) {
+        self.senders.shrink_to_fit();
+        self.factors.shrink_to_fit();
+    }
+
+    /// How many blocks there are.
+    pub fn len(&self) -> usize {
+        self.spans.len()
+    }
+
+    /// A block, by its number.
+    pub fn get(&self, k: usize) -> Block<'_> {
+        let (first, factor) =
+            k.checked_sub(1).map_or((0, 0), |k| (self.spans[k].senders, self.spans[k].factors));
+        let Span { receiver, patches, senders, factors, rays } = self.spans[k];
+        Block {
+            receiver,
+            patches: patches as usize,
+            senders: &self.senders[first..senders],
+            factors: &self.factors[factor..factors],
+            rays,
+        }
+    }
+
+    /// One after the other.
+    pub fn iter(&self) -> impl Iterator<Item = Block<'_>> {
+        (0..self.len()).map(|k| self.get(k))
+    }
+
+    /// How many factors are not 0.
+    pub fn links(&self) -> u64 {
+        self.factors.iter().filter(|factor| **factor != 0.0).count() as u64
+    }
+
+    /// Rays cast for them.
+    pub fn rays(&self) -> u64 {
+        self.spans.iter().map(|span| span.rays).sum()
+    }
+
+    /// Bytes that they take.
+    pub fn bytes(&self) -> u64 {
+        (size_of_val(&*self.spans) + size_of_val(&*self.senders) + size_of_val(&*self.factors)) as u64
+    }
+}
+
+impl<'a> Block<'a> {
     /// The cluster of its patches.
     pub fn receiver(&self) -> Cluster {
         self.receiver
@@ -44,13 +107,18 @@ impl Block {
         self.patches
     }
 
+    /// Rays cast for it.
+    pub fn rays(&self) -> u64 {
+        self.rays
+    }
+
     /// Each sender, with the factors of all patches.
-    pub fn columns(&self) -> impl Iterator<Item = (Cluster, &[f32])> {
+    pub fn columns(&self) -> impl Iterator<Item = (Cluster, &'a [f32])> + use<'a> {
         self.senders.iter().copied().zip(self.factors.chunks_exact(self.patches.max(1)))
     }
 
     /// The factors of all patches from a sender, by its number.
-    pub fn column(&self, k: usize) -> &[f32] {
+    pub fn column(&self, k: usize) -> &'a [f32] {
         &self.factors[k * self.patches..(k + 1) * self.patches]
     }
 
@@ -71,20 +139,10 @@ impl Block {
         &self,
         range: impl Fn(Cluster) -> Range<usize>,
         place: usize,
-    ) -> Option<(Cluster, &[f32])> {
+    ) -> Option<(Cluster, &'a [f32])> {
         let k = self.senders.partition_point(|sender| range(*sender).end <= place);
         let sender = *self.senders.get(k).filter(|sender| range(**sender).contains(&place))?;
         Some((sender, self.column(k)))
-    }
-
-    /// How many factors are not 0.
-    pub fn links(&self) -> u64 {
-        self.factors.iter().filter(|factor| **factor != 0.0).count() as u64
-    }
-
-    /// Bytes that it takes.
-    pub fn bytes(&self) -> u64 {
-        (size_of::<Self>() + size_of_val(&*self.senders) + size_of_val(&*self.factors)) as u64
     }
 
     /// What each patch gathers, from the means over all clusters. One patch stands for all of a sketch.

@@ -1,6 +1,6 @@
 //! From patches to links: a tree, then cuts, then the factors of each link.
 
-use super::block::Block;
+use super::block::Blocks;
 use super::clusters::{Clusters, parts, up_to};
 use super::cut::{Cuts, Hidden};
 use super::factor::{Column, Factors, Link};
@@ -16,6 +16,7 @@ use fredholm::relax::{Relaxation, Stop, relax};
 use fredholm::system::{System, SystemError};
 use fredholm::value::{Value, max_norm};
 use rayon::prelude::*;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// What is known of the light, or guessed, by patch: how bright it is and what arrives, in W/m², of the brightest channel.
@@ -79,12 +80,20 @@ const REGIONS: usize = 64;
 const LOOKS: usize = 64;
 const LOOKS_SEED: u64 = 0x100c;
 
+/// A cluster of patches whose links are found one after the other, and the numbers of its receivers.
+#[derive(Clone, Debug)]
+struct Region {
+    cluster: Cluster,
+    receivers: Range<usize>,
+}
+
 /// Patches in clusters, before there are links.
 pub struct Plan<'a, V> {
     pub(super) patches: &'a Patches<V>,
     pub(super) visibility: &'a Visibility,
     pub(super) clusters: Arc<Clusters>,
     receivers: Vec<Cluster>,
+    regions: Vec<Region>,
     shaped: bool,
 }
 
@@ -92,8 +101,16 @@ impl<'a, V: Value> Plan<'a, V> {
     /// For these patches, which `visibility` is of.
     pub fn new(patches: &'a Patches<V>, visibility: &'a Visibility) -> Self {
         let clusters = Clusters::new(patches, visibility);
-        let receivers = up_to(&clusters.tree, TOGETHER);
-        Self { patches, visibility, clusters: Arc::new(clusters), receivers, shaped: false }
+        let tree = &clusters.tree;
+        let receivers = up_to(tree, TOGETHER);
+        let [few, many] = NEIGHBOURS;
+        let regions = up_to(tree, (patches.len() / REGIONS).clamp(few, many)).into_iter().map(|cluster| {
+            let [first, end] = [tree.range(cluster).start, tree.range(cluster).end]
+                .map(|place| receivers.partition_point(|receiver| tree.range(*receiver).start < place));
+            Region { cluster, receivers: first..end }
+        });
+        let regions = regions.collect();
+        Self { patches, visibility, clusters: Arc::new(clusters), receivers, regions, shaped: false }
     }
 
     /// With links that know how bright the parts of a cluster are beside the whole, and send more of what is near and bright: better for
@@ -110,9 +127,10 @@ impl<'a, V: Value> Plan<'a, V> {
         let means = self.means(light);
         let (cuts, factors) = (self.cuts(&means, part), self.factors(&means, work.seed, false));
         let bytes = |receiver: &Cluster| {
-            let mut found = Vec::new();
+            let (mut found, mut blocks) = (Vec::new(), Blocks::default());
             cuts.of(*receiver, &mut [], &mut found);
-            self.block(*receiver, (&cuts, &factors), &work, &found).0.bytes()
+            self.block(*receiver, (&cuts, &factors), &work, &found, &mut blocks);
+            blocks.bytes()
         };
         let looks: u64 = looked.par_iter().map(bytes).sum();
         looks * self.receivers.len() as u64 / looked.len().max(1) as u64 + self.tree_bytes()
@@ -165,15 +183,13 @@ impl<'a, V: Value> Plan<'a, V> {
         progress: impl Fn(usize) + Sync,
     ) -> Hierarchical {
         let work = Work { light, part, seed, most: TOGETHER };
-        let built = self.built(&work, vec![None; self.receivers.len()], (progress, || false));
-        self.gathered(built.into_iter().flatten())
+        self.gathered(self.built(&work, self.unbuilt(), (progress, || false)))
     }
 
     /// The links of one patch of each cluster, which stands for the others: enough to tell how bright these are.
     fn sketch(&self, light: &Light, part: f64, seed: u64) -> Hierarchical {
         let work = Work { light, part, seed, most: 1 };
-        let built = self.built(&work, vec![None; self.receivers.len()], (|_| (), || false));
-        self.gathered(built.into_iter().flatten())
+        self.gathered(self.built(&work, self.unbuilt(), (|_| (), || false)))
     }
 
     /// The light, brightness and all that arrives, by links from one patch of each cluster, found for light that is the same
@@ -205,115 +221,95 @@ impl<'a, V: Value> Plan<'a, V> {
         seed: u64,
         hooks: (impl Fn(usize) + Sync, impl Fn() -> bool + Sync),
     ) -> Result<Hierarchical, Kept> {
-        let Kept { digest, light, blocks, rays } = kept;
-        let mut known = vec![None; self.receivers.len()];
-        for (receiver, block) in blocks {
-            hooks.0(block.patches());
-            known[receiver as usize] = Some((block, 0));
+        let Kept { digest, light, regions } = kept;
+        regions.iter().flat_map(Blocks::iter).for_each(|block| hooks.0(block.patches()));
+        let built = self.built(&Work { light: &light, part, seed, most: TOGETHER }, regions, hooks);
+        if self.receivers.len() > built.iter().map(Blocks::len).sum() {
+            return Err(Kept { digest, light, regions: built });
         }
-        let built = self.built(&Work { light: &light, part, seed, most: TOGETHER }, known, hooks);
-        let rays = rays + built.iter().flatten().map(|(_, rays)| rays).sum::<u64>();
-        if built.iter().any(Option::is_none) {
-            let blocks = (0..).zip(built).filter_map(|(receiver, built)| Some((receiver, built?.0)));
-            return Err(Kept { digest, light, blocks: blocks.collect(), rays });
-        }
-        let mut operator = self.gathered(built.into_iter().flatten());
-        operator.statistics.rays = rays;
-        Ok(operator)
+        Ok(self.gathered(built))
     }
 
-    /// What is known of each receiver, and the rest; none where `stops` said so.
+    /// No links yet, of any region.
+    pub(super) fn unbuilt(&self) -> Vec<Blocks> {
+        vec![Blocks::default(); self.regions.len()]
+    }
+
+    /// The links of each region, of which some may be there; fewer than all where `stops` said so.
     fn built(
         &self,
         work: &Work<'_>,
-        mut known: Vec<Option<(Block, u64)>>,
+        known: Vec<Blocks>,
         (progress, stops): (impl Fn(usize) + Sync, impl Fn() -> bool + Sync),
-    ) -> Vec<Option<(Block, u64)>> {
+    ) -> Vec<Blocks> {
         let means = self.means(work.light);
         let (cuts, factors) = (self.cuts(&means, work.part), self.factors(&means, work.seed, false));
         let tree = &self.clusters.tree;
-        let [few, many] = NEIGHBOURS;
-        let regions = up_to(tree, (self.patches.len() / REGIONS).clamp(few, many));
-        let mut rest = (&self.receivers[..], &mut known[..]);
-        let mut tasks = Vec::with_capacity(regions.len());
-        for region in regions {
-            let count =
-                rest.0.partition_point(|receiver| tree.range(*receiver).start < tree.range(region).end);
-            let ((receivers, others), (known, after)) = (rest.0.split_at(count), rest.1.split_at_mut(count));
-            tasks.push((region, receivers, known));
-            rest = (others, after);
-        }
-        tasks.into_par_iter().for_each(|(region, receivers, known)| {
-            let mut wanted = receivers.iter().zip(known).filter(|(_, known)| known.is_none()).peekable();
-            let (mut hidden, mut found) = ([region; 2].map(Hidden::from), Vec::new());
-            for near in parts(tree, region, few) {
+        let build = |(region, mut blocks): (&Region, Blocks)| {
+            let mut wanted = self.receivers[region.receivers.clone()].iter().skip(blocks.len()).peekable();
+            let (mut hidden, mut found) = ([region.cluster; 2].map(Hidden::from), Vec::new());
+            for near in parts(tree, region.cluster, NEIGHBOURS[0]) {
                 hidden[1] = Hidden::from(near);
                 let end = tree.range(near).end;
-                while let Some((receiver, known)) = wanted.next_if(|(at, _)| tree.range(**at).start < end) {
+                while let Some(receiver) = wanted.next_if(|at| tree.range(**at).start < end) {
                     if stops() {
-                        return;
+                        return blocks;
                     }
                     cuts.of(*receiver, &mut hidden, &mut found);
-                    *known = Some(self.block(*receiver, (&cuts, &factors), work, &found));
+                    self.block(*receiver, (&cuts, &factors), work, &found, &mut blocks);
                     progress(tree.range(*receiver).len());
                 }
             }
-        });
-        known
+            blocks.shrink();
+            blocks
+        };
+        self.regions.par_iter().zip(known).map(build).collect()
     }
 
+    /// Adds the links of a receiver.
     fn block(
         &self,
         receiver: Cluster,
         (cuts, factors): (&Cuts<'_>, &Factors<'_>),
         work: &Work<'_>,
         found: &[Cluster],
-    ) -> (Block, u64) {
+        blocks: &mut Blocks,
+    ) {
         let range = self.clusters.tree.range(receiver);
         let first = range.start;
         let parts = &self.clusters.polygons[first..range.end.min(first + work.most)];
         let hull = self.clusters.hull(receiver);
         let worth = work.part * cuts.arriving[receiver.index()];
         let (mut rays, mut column) = (0, Column::default());
-        let columns = (0_u64..).zip(found).map(|(number, &sender)| {
+        for (number, &sender) in (0_u64..).zip(found) {
             let clear = factors.clear(hull.as_deref(), sender);
             let worth = worth / cuts.brightness[sender.index()];
             factors.column(parts, &Link { first, sender, number, clear, worth }, &mut column);
             rays += column.cast;
-            (sender, column.factors.iter().map(|factor| *factor as f32).collect())
-        });
-        (Block::new(receiver, parts.len(), columns), rays)
+            blocks.add(sender, &column.factors);
+        }
+        blocks.close(receiver, parts.len(), rays);
     }
 
-    /// The receiver of a number.
-    pub(super) fn receiver(&self, number: u32) -> Option<Cluster> {
-        self.receivers.get(number as usize).copied()
+    /// The receivers of a region.
+    pub(super) fn receivers(&self, region: usize) -> &[Cluster] {
+        &self.receivers[self.regions[region].receivers.clone()]
     }
 
-    fn gathered(&self, built: impl Iterator<Item = (Block, u64)>) -> Hierarchical {
-        let (blocks, rays): (Vec<Block>, Vec<u64>) = built.unzip();
-        let rays = rays.iter().sum();
+    fn gathered(&self, regions: Vec<Blocks>) -> Hierarchical {
         let tree = &self.clusters.tree;
         let mut order_of = vec![0; tree.order().len()];
         tree.order().iter().zip(0..).for_each(|(patch, place)| order_of[*patch] = place);
+        let sum = |of: fn(&Blocks) -> u64| regions.iter().map(of).sum::<u64>();
         let statistics = Statistics {
             patches: self.patches.len(),
             clusters: tree.len(),
             receivers: self.receivers.len(),
-            links: blocks.iter().map(Block::links).sum(),
-            rays,
-            bytes: blocks.iter().map(Block::bytes).sum::<u64>() + self.tree_bytes(),
+            links: sum(Blocks::links),
+            rays: sum(Blocks::rays),
+            link_bytes: sum(Blocks::bytes),
+            bytes: sum(Blocks::bytes) + self.tree_bytes(),
         };
-        Hierarchical {
-            places: Hierarchical::places(
-                &blocks,
-                |receiver| tree.members(receiver).to_vec(),
-                self.patches.len(),
-            ),
-            clusters: Arc::clone(&self.clusters),
-            blocks,
-            order_of,
-            statistics,
-        }
+        Hierarchical::new(Arc::clone(&self.clusters), regions, order_of, statistics)
     }
 }

@@ -1,10 +1,11 @@
 //! Links that were found before a run was interrupted, and the file that they are kept in.
 //!
-//! All numbers are little-endian: 8 bytes `FREDLINK`, the version, a digest of what the links are of, the numbers of patches and of
-//! blocks, the light that the cuts were made for, and block by block the number of its receiver, of its patches and of its
-//! senders, the senders and the factors; at the end a CRC-32 of all that.
+//! All numbers are little-endian: 8 bytes `FREDLINK`, the version, a digest of what the links are of, the number of patches, the light
+//! that the cuts were made for, and region by region the number of its blocks, which are those of its receivers from the first on; block
+//! by block the numbers of its patches, of its senders, and of rays cast for it; and sender by sender its number and the factors. At
+//! the end a CRC-32 of all that.
 
-use super::block::Block;
+use super::block::Blocks;
 use super::build::{Light, Plan};
 use crate::form_factor::sampled::mix;
 use fredholm::operator::hierarchical::Cluster;
@@ -12,7 +13,7 @@ use fredholm::value::Value;
 use std::io::{self, Read, Write};
 
 const MAGIC: [u8; 8] = *b"FREDLINK";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// Links of some of the receivers.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,9 +21,8 @@ pub struct Kept {
     /// What they are of: patches, light and the part that a link may bring.
     pub(super) digest: u64,
     pub(super) light: Light,
-    /// By the number of the receiver, ascending.
-    pub(super) blocks: Vec<(u32, Block)>,
-    pub(super) rays: u64,
+    /// Of each region, of its receivers from the first on.
+    pub(super) regions: Vec<Blocks>,
 }
 
 /// Why a file of links cannot be used.
@@ -50,7 +50,7 @@ pub enum KeptError {
 impl Kept {
     /// No links yet, for light as it is guessed.
     pub fn none<V: Value>(plan: &Plan<'_, V>, light: Light, part: f64, source: &[V]) -> Self {
-        Self { digest: plan.digest(part, source), light, blocks: Vec::new(), rays: 0 }
+        Self { digest: plan.digest(part, source), light, regions: plan.unbuilt() }
     }
 
     /// The light that the links are made for.
@@ -60,7 +60,7 @@ impl Kept {
 
     /// How many patches have their links.
     pub fn patches(&self) -> usize {
-        self.blocks.iter().map(|(_, block)| block.patches()).sum()
+        self.regions.iter().flat_map(Blocks::iter).map(|block| block.patches()).sum()
     }
 
     /// Writes the file.
@@ -68,23 +68,24 @@ impl Kept {
         let mut out = Checked { inner: out, crc: crc32fast::Hasher::new() };
         out.write_all(&MAGIC)?;
         out.write_all(&VERSION.to_le_bytes())?;
-        let (patches, blocks) = (self.light.brightness.len() as u64, self.blocks.len() as u64);
-        for number in [self.digest, patches, blocks, self.rays] {
+        for number in [self.digest, self.light.brightness.len() as u64] {
             out.write_all(&number.to_le_bytes())?;
         }
         for number in self.light.brightness.iter().chain(&self.light.arriving) {
             out.write_all(&number.to_le_bytes())?;
         }
-        for (receiver, block) in &self.blocks {
-            let senders = block.columns().count() as u32;
-            for number in [*receiver, block.patches() as u32, senders] {
-                out.write_all(&number.to_le_bytes())?;
-            }
-            for (sender, _) in block.columns() {
-                out.write_all(&(sender.index() as u32).to_le_bytes())?;
-            }
-            for (_, column) in block.columns() {
-                column.iter().try_for_each(|factor| out.write_all(&factor.to_le_bytes()))?;
+        for blocks in &self.regions {
+            out.write_all(&(blocks.len() as u32).to_le_bytes())?;
+            for block in blocks.iter() {
+                let senders = block.columns().count() as u32;
+                for number in [block.patches() as u32, senders] {
+                    out.write_all(&number.to_le_bytes())?;
+                }
+                out.write_all(&block.rays().to_le_bytes())?;
+                for (sender, column) in block.columns() {
+                    out.write_all(&(sender.index() as u32).to_le_bytes())?;
+                    column.iter().try_for_each(|factor| out.write_all(&factor.to_le_bytes()))?;
+                }
             }
         }
         let Checked { inner, crc } = out;
@@ -99,58 +100,46 @@ impl Kept {
         input: &mut impl Read,
     ) -> Result<Self, KeptError> {
         let mut input = Checked { inner: input, crc: crc32fast::Hasher::new() };
-        let cut_off = |error: io::Error| match error.kind() {
-            io::ErrorKind::UnexpectedEof => KeptError::Damaged,
-            _ => KeptError::Read(error.to_string()),
-        };
-        if input.take::<8>().map_err(|error| match cut_off(error) {
-            KeptError::Damaged => KeptError::Foreign,
-            other => other,
-        })? != MAGIC
-        {
+        let magic = input.take::<8>();
+        if matches!(magic, Err(KeptError::Damaged)) || magic? != MAGIC {
             return Err(KeptError::Foreign);
         }
-        let version = u32::from_le_bytes(input.take().map_err(cut_off)?);
+        let version = input.word()?;
         if version != VERSION {
             return Err(KeptError::Version(version));
         }
-        let [digest, patches, blocks, rays] = [(); 4].map(|()| input.take().map(u64::from_le_bytes));
-        let [digest, patches, blocks, rays] = [
-            digest.map_err(cut_off)?,
-            patches.map_err(cut_off)?,
-            blocks.map_err(cut_off)?,
-            rays.map_err(cut_off)?,
-        ];
+        let (digest, patches) = (input.long()?, input.long()?);
         if digest != plan.digest(part, source) || patches != source.len() as u64 {
             return Err(KeptError::Another);
         }
-        let mut numbers = || -> Result<Vec<f64>, KeptError> {
-            (0..patches).map(|_| Ok(f64::from_le_bytes(input.take().map_err(cut_off)?))).collect()
-        };
+        let mut numbers =
+            || (0..patches).map(|_| Ok(f64::from_bits(input.long()?))).collect::<Result<_, KeptError>>();
         let light = Light { brightness: numbers()?, arriving: numbers()? };
         let clusters: Vec<Cluster> = plan.clusters.tree.top_down().collect();
-        let mut kept = Self { digest, light, blocks: Vec::new(), rays };
-        for _ in 0..blocks {
-            let mut number = || Ok::<u32, KeptError>(u32::from_le_bytes(input.take().map_err(cut_off)?));
-            let (receiver, patches, senders) = (number()?, number()? as usize, number()? as usize);
-            let known =
-                plan.receiver(receiver).filter(|_| kept.blocks.last().is_none_or(|last| last.0 < receiver));
-            let known = known.filter(|known| plan.clusters.tree.range(*known).len() == patches);
-            let (Some(known), true) = (known, senders <= clusters.len()) else {
-                return Err(KeptError::Damaged);
-            };
-            let senders =
-                (0..senders).map(|_| clusters.get(number()? as usize).copied().ok_or(KeptError::Damaged));
-            let senders = senders.collect::<Result<Vec<Cluster>, _>>()?;
-            let factors = (0..senders.len() * patches).map(|_| Ok(f32::from_bits(number()?)));
-            let factors = factors.collect::<Result<Vec<f32>, KeptError>>()?;
-            kept.blocks.push((receiver, Block::from_parts(known, patches, senders, factors)));
+        let (mut regions, mut column) = (plan.unbuilt(), Vec::new());
+        for (region, blocks) in regions.iter_mut().enumerate() {
+            let known = input.word()? as usize;
+            for receiver in plan.receivers(region).get(..known).ok_or(KeptError::Damaged)? {
+                let (patches, senders, rays) = (input.word()? as usize, input.word()?, input.long()?);
+                if plan.clusters.tree.range(*receiver).len() != patches {
+                    return Err(KeptError::Damaged);
+                }
+                for _ in 0..senders {
+                    let sender = clusters.get(input.word()? as usize).ok_or(KeptError::Damaged)?;
+                    column.clear();
+                    for _ in 0..patches {
+                        column.push(f64::from(f32::from_bits(input.word()?)));
+                    }
+                    blocks.add(*sender, &column);
+                }
+                blocks.close(*receiver, patches, rays);
+            }
         }
         let found = input.crc.clone().finalize();
-        if u32::from_le_bytes(input.take().map_err(cut_off)?) != found {
+        if input.word()? != found {
             return Err(KeptError::Damaged);
         }
-        Ok(kept)
+        Ok(Self { digest, light, regions })
     }
 }
 
@@ -184,10 +173,21 @@ impl<W: Write> Checked<&mut W> {
 }
 
 impl<R: Read> Checked<&mut R> {
-    fn take<const N: usize>(&mut self) -> io::Result<[u8; N]> {
+    fn take<const N: usize>(&mut self) -> Result<[u8; N], KeptError> {
         let mut bytes = [0; N];
-        self.inner.read_exact(&mut bytes)?;
+        self.inner.read_exact(&mut bytes).map_err(|error| match error.kind() {
+            io::ErrorKind::UnexpectedEof => KeptError::Damaged,
+            _ => KeptError::Read(error.to_string()),
+        })?;
         self.crc.update(&bytes);
         Ok(bytes)
+    }
+
+    fn word(&mut self) -> Result<u32, KeptError> {
+        self.take().map(u32::from_le_bytes)
+    }
+
+    fn long(&mut self) -> Result<u64, KeptError> {
+        self.take().map(u64::from_le_bytes)
     }
 }

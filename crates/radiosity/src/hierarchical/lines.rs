@@ -1,7 +1,6 @@
 //! Rows, columns and actions of F̃: F̃_ij = F_iC A_j/A_C, for the cluster C of the cut of i that j is in.
 
 use super::Hierarchical;
-use super::block::Block;
 use super::relaxed::{Gathering, Shooting};
 use fredholm::operator::hierarchical::Cluster;
 use fredholm::operator::{Columns, Gather, Line, Rows, Shoot};
@@ -12,21 +11,6 @@ use rayon::prelude::*;
 const TOGETHER: usize = 8192;
 
 impl Hierarchical {
-    /// Patch by patch: the block that it receives in, and its place there.
-    pub(super) fn places(
-        blocks: &[Block],
-        members: impl Fn(Cluster) -> Vec<usize>,
-        patches: usize,
-    ) -> Vec<(u32, u32)> {
-        let mut places = vec![(0, 0); patches];
-        for (number, block) in (0..).zip(blocks) {
-            for (place, patch) in (0..).zip(members(block.receiver())) {
-                places[patch] = (number, place.min(block.patches() as u32 - 1));
-            }
-        }
-        places
-    }
-
     /// Adds what comes from each patch of a cluster of which `factor` comes in all.
     fn spread(&self, sender: Cluster, factor: f64, row: &mut [f64]) {
         let density = factor / self.clusters.whole(sender).area;
@@ -39,11 +23,11 @@ impl Hierarchical {
     fn shoot<V: Value>(&self, u: &[V], out: &mut [V]) {
         let clusters = self.clusters.wholes.len();
         let parts: Vec<Vec<V>> = self
-            .blocks
+            .numbers
             .par_chunks(TOGETHER)
-            .map(|blocks| {
+            .map(|numbers| {
                 let mut sums = vec![V::splat(0.0); clusters];
-                for block in blocks {
+                for block in numbers.iter().map(|at| self.block_at(at)) {
                     let members = self.clusters.tree.members(block.receiver());
                     for (sender, column) in block.columns() {
                         let sum = &mut sums[sender.index()];
@@ -75,7 +59,7 @@ impl Rows for Hierarchical {
         buffer.clear();
         buffer.resize(self.places.len(), 0.0);
         let (block, place) = self.places[i];
-        for (sender, column) in self.blocks[block as usize].columns() {
+        for (sender, column) in self.block(block).columns() {
             self.spread(sender, f64::from(column[place as usize]), buffer);
         }
         Line::Full(buffer)
@@ -95,7 +79,7 @@ impl Columns for Hierarchical {
         buffer.clear();
         buffer.resize(self.places.len(), 0.0);
         let place = self.order_of[j] as usize;
-        for block in &self.blocks {
+        for block in self.blocks() {
             let Some((sender, column)) = block.column_with(|sender| self.clusters.tree.range(sender), place)
             else {
                 continue;

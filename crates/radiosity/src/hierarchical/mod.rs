@@ -25,7 +25,7 @@ pub use error::Judged;
 pub(crate) use error::told;
 pub use kept::{Kept, KeptError};
 
-use block::Block;
+use block::{Block, Blocks};
 use clusters::Clusters;
 use fredholm::operator::Matrix;
 use std::sync::Arc;
@@ -34,8 +34,10 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct Hierarchical {
     clusters: Arc<Clusters>,
-    /// In the order of the tree.
-    blocks: Vec<Block>,
+    /// The links of each region, in the order of the tree.
+    regions: Vec<Blocks>,
+    /// The region that each block is in, and its number there.
+    numbers: Vec<(u32, u32)>,
     /// The block that each patch receives in, and its place there.
     places: Vec<(u32, u32)>,
     /// The place of each patch in the order of the tree.
@@ -56,11 +58,48 @@ pub struct Statistics {
     pub links: u64,
     /// Rays cast for them.
     pub rays: u64,
+    /// Bytes of the links, which an action reads: of factors, those that are 0 since something hides the sender among them, and senders.
+    pub link_bytes: u64,
     /// Bytes of the links, and of the tree.
     pub bytes: u64,
 }
 
 impl Hierarchical {
+    fn new(
+        clusters: Arc<Clusters>,
+        regions: Vec<Blocks>,
+        order_of: Vec<u32>,
+        statistics: Statistics,
+    ) -> Self {
+        let numbers = (0..)
+            .zip(&regions)
+            .flat_map(|(region, blocks)| (0..blocks.len() as u32).map(move |k| (region, k)));
+        let numbers = numbers.collect();
+        let mut links = Self { clusters, regions, numbers, places: Vec::new(), order_of, statistics };
+        let mut places = vec![(0, 0); links.order_of.len()];
+        for (number, block) in (0..).zip(links.blocks()) {
+            for (place, patch) in (0..).zip(links.clusters.tree.members(block.receiver())) {
+                places[*patch] = (number, place.min(block.patches() as u32 - 1));
+            }
+        }
+        links.places = places;
+        links
+    }
+
+    /// The links of one receiver after the other.
+    fn blocks(&self) -> impl Iterator<Item = Block<'_>> {
+        self.regions.iter().flat_map(Blocks::iter)
+    }
+
+    /// The links of a receiver.
+    fn block(&self, number: u32) -> Block<'_> {
+        self.block_at(&self.numbers[number as usize])
+    }
+
+    fn block_at(&self, (region, k): &(u32, u32)) -> Block<'_> {
+        self.regions[*region as usize].get(*k as usize)
+    }
+
     /// How large it is.
     pub fn statistics(&self) -> &Statistics {
         &self.statistics
@@ -68,7 +107,7 @@ impl Hierarchical {
 
     /// All its links, to go on with another time.
     pub fn into_kept(self, digest: u64, light: Light) -> Kept {
-        Kept { digest, light, blocks: (0..).zip(self.blocks).collect(), rays: self.statistics.rays }
+        Kept { digest, light, regions: self.regions }
     }
 }
 

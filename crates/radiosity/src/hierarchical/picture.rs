@@ -68,7 +68,7 @@ impl Hierarchical {
     }
 
     fn largest_sender(&self) -> usize {
-        let senders = self.blocks.iter().flat_map(|block| block.columns());
+        let senders = self.blocks().flat_map(|block| block.columns());
         senders.map(|(sender, _)| self.clusters.tree.range(sender).len()).max().unwrap_or(1)
     }
 
@@ -77,7 +77,7 @@ impl Hierarchical {
         let tree = &self.clusters.tree;
         let n = self.places.len();
         let mut cells = vec![Cell::default(); side * side];
-        for block in &self.blocks {
+        for block in self.blocks() {
             for (sender, column) in block.columns() {
                 let range = tree.range(sender);
                 let size = (range.len() as f64).log2();

@@ -63,7 +63,7 @@ impl<'a, V: Value> Gathering<'a, V> {
 
 impl<V: Value> Gather<V> for Gathering<'_, V> {
     fn groups(&self) -> usize {
-        self.links.blocks.len()
+        self.links.numbers.len()
     }
 
     fn group(&mut self, group: usize, u: &[V]) -> Gathered<'_, V> {
@@ -71,7 +71,7 @@ impl<V: Value> Gather<V> for Gathering<'_, V> {
         if group == 0 {
             self.means = self.links.clusters.means(u);
         }
-        let block = &self.links.blocks[group];
+        let block = self.links.block(group as u32);
         let unknowns = clusters.tree.members(block.receiver());
         self.sums.resize(unknowns.len(), V::splat(0.0));
         block.gather(&self.means, &mut self.sums);
@@ -93,7 +93,7 @@ impl<V: Value> Gather<V> for Gathering<'_, V> {
 
     fn changed(&mut self, group: usize, steps: &[V]) {
         let links = self.links;
-        let unknowns = links.clusters.tree.members(links.blocks[group].receiver());
+        let unknowns = links.clusters.tree.members(links.block(group as u32).receiver());
         for (patch, step) in unknowns.iter().zip(steps) {
             for (cluster, part) in self.ancestry.above(*patch) {
                 self.means[cluster.index()] += *step * part;
@@ -121,7 +121,7 @@ impl<'a, V: Value> Shooting<'a, V> {
     pub fn new(links: &'a Hierarchical) -> Self {
         let clusters = links.clusters.wholes.len();
         let senders = || {
-            let blocks = (0_u32..).zip(&links.blocks);
+            let blocks = (0_u32..).zip(links.blocks());
             blocks.flat_map(|(number, block)| {
                 (0_u32..)
                     .zip(block.columns())
@@ -170,7 +170,7 @@ impl<V: Value> Shoot<V> for Shooting<'_, V> {
         let held = std::mem::replace(&mut self.held[k], V::splat(0.0));
         self.sizes.set(k, 0.0);
         for (number, column) in &self.receivers[self.begins[k] as usize..self.begins[k + 1] as usize] {
-            let block = &self.links.blocks[*number as usize];
+            let block = self.links.block(*number);
             self.received.clear();
             self.received
                 .extend(block.column(*column as usize).iter().map(|factor| held * f64::from(*factor)));

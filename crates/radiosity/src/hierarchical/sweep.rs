@@ -84,6 +84,9 @@ impl Ascent {
     }
 }
 
+/// Receivers that one thread goes through without looking for other work.
+const IN_A_ROW: usize = 32;
+
 impl Hierarchical {
     /// `out` = F̃ u.
     pub(super) fn gather<V: Value>(&self, u: &[V], out: &mut [V]) {
@@ -92,15 +95,24 @@ impl Hierarchical {
 
     /// What each patch gathers from means over clusters.
     pub(super) fn gather_means<V: Value>(&self, means: &[V], out: &mut [V]) {
+        let tree = &self.clusters.tree;
         let mut in_order = vec![V::splat(0.0); out.len()];
         let mut rest = &mut in_order[..];
-        let mut tasks = Vec::with_capacity(self.blocks.len());
-        for block in &self.blocks {
-            let (own, after) = rest.split_at_mut(self.clusters.tree.range(block.receiver()).len());
-            tasks.push((block, own));
+        let mut tasks = Vec::with_capacity(self.numbers.len().div_ceil(IN_A_ROW));
+        for numbers in self.numbers.chunks(IN_A_ROW) {
+            let range = |k: usize| tree.range(self.block_at(&numbers[k]).receiver());
+            let (own, after) = rest.split_at_mut(range(numbers.len() - 1).end - range(0).start);
+            tasks.push((numbers, own));
             rest = after;
         }
-        tasks.into_par_iter().for_each(|(block, sums)| block.gather(means, sums));
+        tasks.into_par_iter().for_each(|(numbers, mut own)| {
+            for at in numbers {
+                let block = self.block_at(at);
+                let (sums, after) = std::mem::take(&mut own).split_at_mut(tree.range(block.receiver()).len());
+                block.gather(means, sums);
+                own = after;
+            }
+        });
         out.par_iter_mut().zip(&self.order_of).for_each(|(value, place)| *value = in_order[*place as usize]);
     }
 }
