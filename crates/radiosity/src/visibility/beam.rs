@@ -1,13 +1,14 @@
 //! Segments from about one place to about another, which go through the tree together: what no one of them can meet is passed
 //! by once for all.
 //!
-//! Between starts in [o₋, o₊] and directions in [d₋, d₊] of one sign, all enter the slab of a box at a parameter of at least
-//! min (near − o)/d, and leave it at one of at most max (far − o)/d, over the corners of these intervals.
+//! With starts in a box [s₋, s₊] and ends in another [t₋, t₊], all are between s₋ + τ(t₋ − s₋) and s₊ + τ(t₊ − s₊) at τ, axis by axis.
+//! A box that some of them meet is at some τ below the second line and above the first along all axes: six bounds of τ, each linear
+//! as those of one ray are.
 
-use super::bvh::{Node, Query};
-use super::facet::{Facet, Plane};
+use super::bvh::{LEAF, Node, Query};
+use super::facet::Facet;
 use super::packet::{Packet, Segments, Triangles, cross, dot};
-use super::ray::Ray;
+use super::ray::{Ray, bits, blocker};
 use glam::{DVec3, Vec3};
 use std::ops::ControlFlow;
 use wide::f32x8;
@@ -28,24 +29,26 @@ impl Interval {
     fn with(self, v: Vec3) -> Self {
         Self { low: self.low.min(v), high: self.high.max(v) }
     }
-
-    fn union(self, other: Self) -> Self {
-        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
-    }
 }
 
-/// What is known of the parameters at which segments go through planes across one axis, along which all go the same way.
+/// One of the six bounds of the parameter at which segments are in a box: (plane − start)/direction of one of the two lines.
 #[derive(Clone, Copy)]
-struct Slab {
-    /// Where in [`Node::bounds`] they enter, and where they leave.
-    near: usize,
-    far: usize,
-    /// 1, or −1 where they go down.
-    sign: f32x8,
-    /// What is taken from the near and from the far plane.
-    starts: [f32x8; 2],
-    /// 1/|d| of the fastest and of the slowest.
-    inverse: [f32x8; 2],
+struct Bound {
+    /// Where in [`Node::bounds`] the plane is.
+    plane: usize,
+    inverse: f32x8,
+    /// What is taken from plane·inverse.
+    start: f32x8,
+    /// Whether it is a least one.
+    enters: bool,
+}
+
+/// What boxes are tried by of eight segments, axis by axis: plane·inverse − start, give or take a pad, is the parameter at a plane.
+#[derive(Clone, Copy)]
+struct Slabs {
+    inverse: [f32x8; 3],
+    start: [f32x8; 3],
+    pad: [f32x8; 3],
 }
 
 /// Segments on their way through the tree.
@@ -54,32 +57,37 @@ pub(super) struct Beam<'a> {
     ends: [[DVec3; 2]; MOST],
     /// Eight to a packet.
     segments: [Segments; MOST / 8],
+    slabs: [Slabs; MOST / 8],
     packets: usize,
     /// A bit for each segment that nothing was found to cut so far, of those that go anywhere.
     open: u64,
     hidden: u64,
-    /// The box around all, wide enough for f32.
-    low: [f32x8; 3],
-    high: [f32x8; 3],
-    slabs: [Option<Slab>; 3],
+    bounds: [Bound; 6],
     /// The middles of the boxes around the starts and around the ends, and half of their sides.
     hulls: [[[f32x8; 3]; 2]; 2],
     end_margin: f32x8,
     /// The same for volumes, in a triangle's size.
     edge_margin: f32x8,
+    nodes: usize,
     /// Tests of eight made so far, and how many are worth making together.
     work: usize,
     patience: usize,
 }
 
-/// So many tests of eight triangles a segment would take by itself, boxes and all; a few more where there are many triangles.
-const ALONE: usize = 12;
+/// So many tests of eight a segment would take by itself, and little more.
+const ALONE: usize = 5;
+
+/// After so many nodes boxes are tried by each segment too: the beam is wide, or there is much in its way that is small.
+const WIDE: usize = 4;
+
+/// So few segments are not worth a look at what all of them do.
+const FEW: u32 = 8;
 
 impl<'a> Beam<'a> {
     /// Of up to [`MOST`] segments.
     pub(super) fn new(facets: &'a [Facet], segments: impl Iterator<Item = [DVec3; 2]>) -> Self {
         let mut beam = Self::nowhere(facets);
-        let (mut starts, mut ends, mut directions) = (Interval::EMPTY, Interval::EMPTY, Interval::EMPTY);
+        let (mut starts, mut ends) = (Interval::EMPTY, Interval::EMPTY);
         let mut lanes = [[[f32::NAN; 8]; 8]; MOST / 8];
         let mut margin = 0.0_f32;
         for (k, [s, t]) in segments.take(MOST).enumerate() {
@@ -87,22 +95,24 @@ impl<'a> Beam<'a> {
             beam.packets = k / 8 + 1;
             let Some(lane) = Ray::lane(s, t) else { continue };
             beam.open |= 1 << k;
-            let [origin, direction, [_, end_margin, _]] = lane;
+            let [origin, _, [_, end_margin, _]] = lane;
             for (to, from) in lanes[k / 8].iter_mut().zip(lane.as_flattened()) {
                 to[k % 8] = *from;
             }
             starts = starts.with(origin.into());
             ends = ends.with(t.as_vec3());
-            directions = directions.with(direction.into());
             margin = margin.max(end_margin);
         }
-        for (packet, lanes) in beam.segments.iter_mut().zip(lanes) {
+        for ((packet, slabs), lanes) in
+            beam.segments.iter_mut().zip(&mut beam.slabs).zip(lanes).take(beam.packets)
+        {
             let [ox, oy, oz, dx, dy, dz, side_margin, end_margin] = lanes.map(f32x8::new);
             let (origin, direction) = ([ox, oy, oz], [dx, dy, dz]);
             *packet = Segments { origin, direction, end: f32x8::ONE, side_margin, end_margin };
+            *slabs = Slabs::new(packet);
         }
         if beam.open != 0 {
-            beam.surround(starts, ends, directions, margin);
+            beam.surround(starts, ends, margin);
         }
         beam
     }
@@ -115,29 +125,27 @@ impl<'a> Beam<'a> {
             facets,
             ends: [[DVec3::ZERO; 2]; MOST],
             segments: [none; MOST / 8],
+            slabs: [Slabs { inverse: nan, start: nan, pad: nan }; MOST / 8],
             packets: 0,
             open: 0,
             hidden: 0,
-            low: nan,
-            high: nan,
-            slabs: [None; 3],
+            bounds: [Bound { plane: 0, inverse: nan[0], start: nan[0], enters: false }; 6],
             hulls: [[nan; 2]; 2],
             end_margin: nan[0],
             edge_margin: nan[0],
+            nodes: 0,
             work: 0,
             patience: 0,
         }
     }
 
-    fn surround(&mut self, starts: Interval, ends: Interval, directions: Interval, margin: f32) {
-        // The margin of a ray is 256 roundoffs of its reach: a sixteenth is more than what is lost in a difference of coordinates.
-        let pad = margin / 16.0;
-        let all = starts.union(ends);
+    fn surround(&mut self, starts: Interval, ends: Interval, margin: f32) {
+        let far = ends.low.abs().max(ends.high.abs()).max_element();
+        // The margin of a ray is 256 roundoffs of its reach: a sixteenth is more than what is lost in a bound.
+        let pad = margin / 16.0 * (1.0 + far);
         for k in 0..3 {
-            self.low[k] = f32x8::splat(all.low[k] - pad);
-            self.high[k] = f32x8::splat(all.high[k] + pad);
-            self.slabs[k] =
-                Slab::new(k, (starts.low[k], starts.high[k]), (directions.low[k], directions.high[k]), pad);
+            self.bounds[k] = Bound::new(k + 3, starts.low[k] - pad, ends.low[k] - pad, false);
+            self.bounds[k + 3] = Bound::new(k, starts.high[k] + pad, ends.high[k] + pad, true);
         }
         self.hulls = [starts, ends].map(|hull| {
             let (middle, half) = (0.5 * (hull.low + hull.high), 0.5 * (hull.high - hull.low));
@@ -146,7 +154,6 @@ impl<'a> Beam<'a> {
         self.end_margin = f32x8::splat(margin);
         // As a ray's, with the distance of ends from a corner, 1.8 at most in a scene and as much more as they are outside, for the
         // length of its direction; and as much again for the corner that is a sum.
-        let far = ends.low.abs().max(ends.high.abs()).max_element();
         self.edge_margin = f32x8::splat(2.0 * margin * (1.0 + far));
         self.patience = ALONE * self.open.count_ones() as usize;
     }
@@ -216,23 +223,52 @@ impl<'a> Beam<'a> {
         [dot(&s, &across), spread + margin]
     }
 
-    /// Looks which of the open segments a polygon hides, by one of its triangles.
-    fn meet(&mut self, triangle: &Triangles, plane: &Plane, polygon: u32) {
+    /// A bit for each open segment that may meet a box of a node.
+    #[inline(always)]
+    fn inside(&self, (node, lane): (&Node, usize)) -> u64 {
+        let planes: [f32x8; 6] = std::array::from_fn(|k| f32x8::splat(node.bounds[k].to_array()[lane]));
+        let of_eight = |slabs: &Slabs| {
+            let (mut enters, mut leaves) = (f32x8::ZERO, f32x8::ONE);
+            for k in 0..3 {
+                let [a, b] =
+                    [planes[k], planes[k + 3]].map(|plane| plane.mul_sub(slabs.inverse[k], slabs.start[k]));
+                enters = enters.fast_max(a.fast_min(b) - slabs.pad[k]);
+                leaves = leaves.fast_min(a.fast_max(b) + slabs.pad[k]);
+            }
+            u64::from(enters.simd_le(leaves).to_bitmask())
+        };
+        let found =
+            self.slabs[..self.packets].iter().map(of_eight).rev().fold(0, |bits, eight| bits << 8 | eight);
+        found & self.open
+    }
+
+    /// Looks which of some segments a packet hides, segment by segment.
+    fn meet_each(&mut self, packet: &Packet, segments: u64) {
+        self.work += segments.count_ones() as usize;
+        for k in bits(segments) {
+            let segment = self.segments[k / 8].lane(k % 8);
+            let hidden = blocker(packet, &segment, self.facets, self.ends[k]).is_some();
+            self.hidden |= u64::from(hidden) << k;
+        }
+        self.open &= !self.hidden;
+    }
+
+    /// Looks which of the open segments a triangle of a packet hides.
+    fn meet_all(&mut self, packet: &Packet, lane: usize) {
+        let triangle = packet.triangles.lane(lane);
+        let (plane, facet) = (&packet.planes[lane], &self.facets[packet.polygons[lane] as usize]);
         self.work += self.packets;
-        for (packet, shift) in self.segments[..self.packets].iter().zip((0..).step_by(8)) {
+        for (segments, shift) in self.segments[..self.packets].iter().zip((0..).step_by(8)) {
             let open = (self.open >> shift) as u32 & 0xff;
             if open == 0 {
                 continue;
             }
-            let candidates = triangle.candidates(packet);
+            let candidates = triangle.candidates(segments);
             let mut hidden = candidates.certain & open;
-            let mut doubtful = candidates.possible & open & !hidden;
-            while doubtful != 0 {
-                let lane = doubtful.trailing_zeros();
-                doubtful &= doubtful - 1;
-                let [s, t] = self.ends[(shift + lane) as usize];
-                let cut = || self.facets[polygon as usize].cut(s, t).is_some();
-                hidden |= u32::from(plane.parts(s, t).is_some() && cut()) << lane;
+            for lane in bits(u64::from(candidates.possible & open & !hidden)) {
+                let [s, t] = self.ends[shift + lane];
+                let cuts = plane.parts(s, t).is_some() && facet.cut(s, t).is_some();
+                hidden |= u32::from(cuts) << lane;
             }
             self.hidden |= u64::from(hidden) << shift;
         }
@@ -240,24 +276,25 @@ impl<'a> Beam<'a> {
     }
 }
 
-impl Slab {
-    /// None where the segments do not all go the same way along the axis.
-    fn new(axis: usize, (low, high): (f32, f32), (slow, fast): (f32, f32), pad: f32) -> Option<Self> {
-        let up = slow > 0.0;
-        if slow <= SLOWEST && fast >= -SLOWEST {
-            return None;
-        }
-        let (near, far) = if up { (axis, axis + 3) } else { (axis + 3, axis) };
-        let (sign, starts) =
-            if up { (1.0, [high + pad, low - pad]) } else { (-1.0, [-low + pad, -high - pad]) };
-        let speeds = if up { [fast, slow] } else { [-slow, -fast] };
-        Some(Self {
-            near,
-            far,
-            sign: f32x8::splat(sign),
-            starts: starts.map(f32x8::splat),
-            inverse: speeds.map(|speed| f32x8::splat(speed.recip())),
-        })
+impl Slabs {
+    fn new(segments: &Segments) -> Self {
+        let inverse = segments.direction.map(|way| {
+            let sign = way & f32x8::splat(-0.0);
+            f32x8::ONE / (way.abs().fast_max(f32x8::splat(SLOWEST)) | sign)
+        });
+        // As of a ray: ten roundoffs of its reach, of which its margin is 256.
+        let pad = inverse.map(|inverse| inverse.abs() * segments.end_margin * f32x8::splat(10.0 / 256.0));
+        Self { inverse, start: std::array::from_fn(|k| segments.origin[k] * inverse[k]), pad }
+    }
+}
+
+impl Bound {
+    /// Of the line from start to end, above a plane or below it.
+    fn new(plane: usize, start: f32, end: f32, above: bool) -> Self {
+        let way = end - start;
+        let inverse = way.abs().max(SLOWEST).copysign(way).recip();
+        let [inverse_8, start] = [inverse, start * inverse].map(f32x8::splat);
+        Self { plane, inverse: inverse_8, start, enters: above == (inverse > 0.0) }
     }
 }
 
@@ -266,35 +303,48 @@ const SLOWEST: f32 = 1e-20;
 
 impl Query for Beam<'_> {
     #[inline(always)]
-    fn select(&self, node: &Node) -> u32 {
-        let mut inside = f32x8::ZERO.simd_eq(f32x8::ZERO);
+    fn select(&mut self, node: &Node) -> u32 {
         let (mut enters, mut leaves) = (f32x8::ZERO, f32x8::ONE);
-        for k in 0..3 {
-            inside &= node.bounds[k].simd_le(self.high[k]) & node.bounds[k + 3].simd_ge(self.low[k]);
-            if let Some(slab) = &self.slabs[k] {
-                let near = node.bounds[slab.near].mul_sub(slab.sign, slab.starts[0]);
-                let far = node.bounds[slab.far].mul_sub(slab.sign, slab.starts[1]);
-                let [fast, slow] = slab.inverse;
-                enters = enters.fast_max((near * fast).fast_min(near * slow));
-                leaves = leaves.fast_min((far * fast).fast_max(far * slow));
+        for bound in &self.bounds {
+            let at = node.bounds[bound.plane].mul_sub(bound.inverse, bound.start);
+            if bound.enters {
+                enters = enters.fast_max(at);
+            } else {
+                leaves = leaves.fast_min(at);
             }
         }
-        (inside & enters.simd_le(leaves)).to_bitmask()
+        let mut selected = enters.simd_le(leaves).to_bitmask();
+        self.nodes += 1;
+        self.work += 1;
+        if self.work > self.patience {
+            return 0;
+        }
+        if self.nodes > WIDE {
+            for lane in bits(u64::from(selected)).filter(|&lane| node.children[lane] & LEAF == 0) {
+                self.work += 1;
+                selected &= !(u32::from(self.inside((node, lane)) == 0) << lane);
+            }
+        }
+        selected
     }
 
     #[inline(always)]
-    fn visit(&mut self, packet: &Packet) -> ControlFlow<()> {
-        let [mut met, all] = self.sort(&packet.triangles);
-        if all != 0 {
-            self.hidden |= self.open;
-            self.open = 0;
-        }
-        while met != 0 && self.open != 0 {
-            let lane = met.trailing_zeros() as usize;
-            met &= met - 1;
-            self.meet(&packet.triangles.lane(lane), &packet.planes[lane], packet.polygons[lane]);
-        }
+    fn visit(&mut self, packet: &Packet, within: (&Node, usize)) -> ControlFlow<()> {
         self.work += 1;
+        let inside = self.inside(within);
+        if inside.count_ones() <= FEW {
+            self.meet_each(packet, inside);
+        } else {
+            let [met, all] = self.sort(&packet.triangles);
+            if all != 0 {
+                self.hidden |= self.open;
+                self.open = 0;
+            } else if inside.count_ones() <= met.count_ones() * self.packets as u32 {
+                self.meet_each(packet, inside);
+            } else {
+                bits(u64::from(met)).for_each(|lane| self.meet_all(packet, lane));
+            }
+        }
         if self.open == 0 || self.work > self.patience {
             ControlFlow::Break(())
         } else {

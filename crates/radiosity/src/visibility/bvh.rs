@@ -25,10 +25,10 @@ pub(super) struct Node {
 /// What a walk asks of the boxes and does with the packets.
 pub(super) trait Query {
     /// A bit for each child that must be visited; empty boxes must give 0.
-    fn select(&self, node: &Node) -> u32;
+    fn select(&mut self, node: &Node) -> u32;
 
-    /// Looks at a packet, and may end the walk.
-    fn visit(&mut self, packet: &Packet) -> ControlFlow<()>;
+    /// Looks at a packet, of which a node has the box in a lane, and may end the walk.
+    fn visit(&mut self, packet: &Packet, within: (&Node, usize)) -> ControlFlow<()>;
 
     /// Whether the children are better visited from high to low along `axis`.
     fn backwards(&self, _axis: usize) -> bool {
@@ -79,7 +79,8 @@ impl Bvh {
             selected &= !(1 << lane);
             let child = node.children[lane as usize & 7];
             if child & LEAF != 0 {
-                if query.visit(&self.packets[(child ^ LEAF) as usize]).is_break() {
+                let packet = &self.packets[(child ^ LEAF) as usize];
+                if query.visit(packet, (node, lane as usize & 7)).is_break() {
                     return;
                 }
             } else {

@@ -33,6 +33,20 @@ pub(super) struct Segments {
     pub(super) end_margin: f32x8,
 }
 
+impl Segments {
+    /// The segment of one lane, eight times.
+    pub(super) fn lane(&self, k: usize) -> Self {
+        let splat = |lanes: &f32x8| f32x8::splat(lanes.to_array()[k]);
+        Self {
+            origin: self.origin.each_ref().map(splat),
+            direction: self.direction.each_ref().map(splat),
+            end: splat(&self.end),
+            side_margin: splat(&self.side_margin),
+            end_margin: splat(&self.end_margin),
+        }
+    }
+}
+
 impl Packet {
     /// The packet of one to eight triangles with the polygons that they are part of, by their numbers among the facets.
     pub(super) fn new(triangles: &[([DVec3; 3], u32)], facets: &[Facet]) -> Self {

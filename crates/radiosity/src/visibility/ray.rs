@@ -90,14 +90,35 @@ impl Ray {
     }
 }
 
-/// The lanes whose bits are set.
+/// Which bits are set.
 #[inline(always)]
-fn lanes(mut bits: u32) -> impl Iterator<Item = usize> {
+pub(super) fn bits(mut of: u64) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
-        let lane = bits.trailing_zeros() as usize;
-        bits &= bits.wrapping_sub(1);
-        (lane < 8).then_some(lane)
+        let bit = of.trailing_zeros() as usize;
+        of &= of.wrapping_sub(1);
+        (bit < 64).then_some(bit)
     })
+}
+
+/// A polygon of a packet that cuts the segment from s to t, which is in all lanes of `segment`.
+#[inline(always)]
+pub(super) fn blocker(
+    packet: &Packet,
+    segment: &Segments,
+    facets: &[Facet],
+    [s, t]: [DVec3; 2],
+) -> Option<u32> {
+    let candidates = packet.triangles.candidates(segment);
+    if let Some(lane) = bits(candidates.certain.into()).next() {
+        return Some(packet.polygons[lane]);
+    }
+    for lane in bits(candidates.possible.into()) {
+        let polygon = packet.polygons[lane];
+        if packet.planes[lane].parts(s, t).is_some() && facets[polygon as usize].cut(s, t).is_some() {
+            return Some(polygon);
+        }
+    }
+    None
 }
 
 /// Any polygon that cuts the segment from s to t.
@@ -111,28 +132,14 @@ pub(super) struct Blocker<'a> {
 
 impl Query for Blocker<'_> {
     #[inline(always)]
-    fn select(&self, node: &Node) -> u32 {
+    fn select(&mut self, node: &Node) -> u32 {
         self.ray.select(node)
     }
 
     #[inline(always)]
-    fn visit(&mut self, packet: &Packet) -> ControlFlow<()> {
-        let candidates = packet.triangles.candidates(&self.ray.segment);
-        if let Some(lane) = lanes(candidates.certain).next() {
-            self.found = Some(packet.polygons[lane]);
-            return ControlFlow::Break(());
-        }
-        for lane in lanes(candidates.possible) {
-            let polygon = packet.polygons[lane];
-            if packet.planes[lane].parts(self.s, self.t).is_none() {
-                continue;
-            }
-            if self.facets[polygon as usize].cut(self.s, self.t).is_some() {
-                self.found = Some(polygon);
-                return ControlFlow::Break(());
-            }
-        }
-        ControlFlow::Continue(())
+    fn visit(&mut self, packet: &Packet, _: (&Node, usize)) -> ControlFlow<()> {
+        self.found = blocker(packet, &self.ray.segment, self.facets, [self.s, self.t]);
+        if self.found.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
     #[inline(always)]
@@ -165,13 +172,13 @@ const ONE_PLACE: f64 = 1e-14;
 
 impl Query for Nearest<'_> {
     #[inline(always)]
-    fn select(&self, node: &Node) -> u32 {
+    fn select(&mut self, node: &Node) -> u32 {
         self.ray.select(node)
     }
 
     #[inline(always)]
-    fn visit(&mut self, packet: &Packet) -> ControlFlow<()> {
-        for lane in lanes(packet.triangles.candidates(&self.ray.segment).possible) {
+    fn visit(&mut self, packet: &Packet, _: (&Node, usize)) -> ControlFlow<()> {
+        for lane in bits(packet.triangles.candidates(&self.ray.segment).possible.into()) {
             let polygon = packet.polygons[lane];
             let Some(at) = self.facets[polygon as usize].cut(self.s, self.t) else { continue };
             if self.found.is_none_or(|best| self.comes_before((polygon, at), best)) {

@@ -96,13 +96,13 @@ impl Between<'_> {
 
 impl Query for Between<'_> {
     #[inline(always)]
-    fn select(&self, node: &Node) -> u32 {
+    fn select(&mut self, node: &Node) -> u32 {
         let met = self.ends[0].met(self.ends[1], node);
         let is_inner = |k: usize| met >> k & 1 == 1 && node.children[k] & LEAF == 0;
         if (0..8).any(is_inner) { met & self.shaft().reached(node) } else { met }
     }
 
-    fn visit(&mut self, packet: &Packet) -> ControlFlow<()> {
+    fn visit(&mut self, packet: &Packet, _: (&Node, usize)) -> ControlFlow<()> {
         for k in packet.distinct() {
             if !self.found.contains(&k) && !self.misses(k) {
                 self.found.push(k);

@@ -196,12 +196,12 @@ impl Shaft<'_> {
 
 impl Query for Shaft<'_> {
     #[inline(always)]
-    fn select(&self, node: &Node) -> u32 {
+    fn select(&mut self, node: &Node) -> u32 {
         self.reached(node)
     }
 
     #[inline(always)]
-    fn visit(&mut self, packet: &Packet) -> ControlFlow<()> {
+    fn visit(&mut self, packet: &Packet, _: (&Node, usize)) -> ControlFlow<()> {
         self.clear = packet.distinct().all(|k| self.misses(k));
         if self.clear { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     }

@@ -47,7 +47,7 @@ struct Beyond<'a> {
 }
 
 impl Query for Beyond<'_> {
-    fn select(&self, node: &Node) -> u32 {
+    fn select(&mut self, node: &Node) -> u32 {
         let furthest: f32x8 = (0..3)
             .map(|k| {
                 let side = if self.normal[k] < 0.0 { k } else { k + 3 };
@@ -58,7 +58,7 @@ impl Query for Beyond<'_> {
         (furthest + f32x8::splat(4.0 * f32::EPSILON)).simd_gt(f32x8::splat(self.offset as f32)).to_bitmask()
     }
 
-    fn visit(&mut self, packet: &Packet) -> ControlFlow<()> {
+    fn visit(&mut self, packet: &Packet, _: (&Node, usize)) -> ControlFlow<()> {
         let outside = |&v: &DVec3| self.normal.dot(v) > self.offset;
         self.found = packet.distinct().any(|k| self.facets[k as usize].vertices().iter().any(outside));
         if self.found { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
