@@ -7,8 +7,8 @@
 
 use super::bvh::{LEAF, Node, Query};
 use super::facet::Facet;
-use super::packet::{Packet, Segments, Triangles, cross, dot};
-use super::ray::{Ray, bits, blocker};
+use super::packet::{BOX_MARGIN, MARGIN, Packet, SLOWEST, Segments, Triangles, cross, dot};
+use super::ray::{bits, blocker};
 use glam::{DVec3, Vec3};
 use std::ops::ControlFlow;
 use wide::f32x8;
@@ -16,18 +16,32 @@ use wide::f32x8;
 /// The most segments of a beam: eight times eight.
 pub(super) const MOST: usize = 64;
 
-/// The interval of a quantity over all segments, axis by axis.
+/// The box around points that are eight side by side, axis by axis.
 #[derive(Clone, Copy)]
-struct Interval {
-    low: Vec3,
-    high: Vec3,
+struct Hull {
+    low: [f32x8; 3],
+    high: [f32x8; 3],
 }
 
-impl Interval {
-    const EMPTY: Self = Self { low: Vec3::INFINITY, high: Vec3::NEG_INFINITY };
+impl Hull {
+    const EMPTY: Self =
+        Self { low: [f32x8::new([f32::INFINITY; 8]); 3], high: [f32x8::new([f32::NEG_INFINITY; 8]); 3] };
 
-    fn with(self, v: Vec3) -> Self {
-        Self { low: self.low.min(v), high: self.high.max(v) }
+    /// With eight points more, of which those count that `used` says.
+    #[inline(always)]
+    fn add(&mut self, points: &[f32x8; 3], used: f32x8) {
+        for k in 0..3 {
+            self.low[k] = self.low[k].fast_min(used.select(points[k], self.low[k]));
+            self.high[k] = self.high[k].fast_max(used.select(points[k], self.high[k]));
+        }
+    }
+
+    fn low(&self) -> Vec3 {
+        self.low.map(|lanes| lanes.to_array().into_iter().fold(f32::INFINITY, f32::min)).into()
+    }
+
+    fn high(&self) -> Vec3 {
+        self.high.map(|lanes| lanes.to_array().into_iter().fold(f32::NEG_INFINITY, f32::max)).into()
     }
 }
 
@@ -74,6 +88,9 @@ pub(super) struct Beam<'a> {
     patience: usize,
 }
 
+/// The starts and the ends of a beam spread by no more than this part of the way between them.
+const NARROW: f32 = 1.0;
+
 /// So many tests of eight a segment would take by itself, and little more.
 const ALONE: usize = 5;
 
@@ -84,78 +101,69 @@ const WIDE: usize = 4;
 const FEW: u32 = 8;
 
 impl<'a> Beam<'a> {
-    /// Of up to [`MOST`] segments.
-    pub(super) fn new(facets: &'a [Facet], segments: impl Iterator<Item = [DVec3; 2]>) -> Self {
-        let mut beam = Self::nowhere(facets);
-        let (mut starts, mut ends) = (Interval::EMPTY, Interval::EMPTY);
-        let mut lanes = [[[f32::NAN; 8]; 8]; MOST / 8];
-        let mut margin = 0.0_f32;
-        for (k, [s, t]) in segments.take(MOST).enumerate() {
-            beam.ends[k] = [s, t];
-            beam.packets = k / 8 + 1;
-            let Some(lane) = Ray::lane(s, t) else { continue };
-            beam.open |= 1 << k;
-            let [origin, _, [_, end_margin, _]] = lane;
-            for (to, from) in lanes[k / 8].iter_mut().zip(lane.as_flattened()) {
-                to[k % 8] = *from;
-            }
-            starts = starts.with(origin.into());
-            ends = ends.with(t.as_vec3());
-            margin = margin.max(end_margin);
-        }
-        for ((packet, slabs), lanes) in
-            beam.segments.iter_mut().zip(&mut beam.slabs).zip(lanes).take(beam.packets)
-        {
-            let [ox, oy, oz, dx, dy, dz, side_margin, end_margin] = lanes.map(f32x8::new);
-            let (origin, direction) = ([ox, oy, oz], [dx, dy, dz]);
-            *packet = Segments { origin, direction, end: f32x8::ONE, side_margin, end_margin };
-            *slabs = Slabs::new(packet);
-        }
-        if beam.open != 0 {
-            beam.surround(starts, ends, margin);
-        }
-        beam
-    }
-
-    fn nowhere(facets: &'a [Facet]) -> Self {
+    /// Of up to [`MOST`] segments; `None` where they do not go from about one place to about another.
+    pub(super) fn new(facets: &'a [Facet], segments: impl Iterator<Item = [DVec3; 2]>) -> Option<Self> {
         let nan = [f32x8::splat(f32::NAN); 3];
         let none =
             Segments { origin: nan, direction: nan, end: nan[0], side_margin: nan[0], end_margin: nan[0] };
-        Self {
-            facets,
-            ends: [[DVec3::ZERO; 2]; MOST],
-            segments: [none; MOST / 8],
-            slabs: [Slabs { inverse: nan, start: nan, pad: nan }; MOST / 8],
-            packets: 0,
-            open: 0,
-            hidden: 0,
-            bounds: [Bound { plane: 0, inverse: nan[0], start: nan[0], enters: false }; 6],
-            hulls: [[nan; 2]; 2],
-            end_margin: nan[0],
-            edge_margin: nan[0],
-            nodes: 0,
-            work: 0,
-            patience: 0,
+        let mut ends = [[DVec3::ZERO; 2]; MOST];
+        let count = ends.iter_mut().zip(segments).map(|(to, from)| *to = from).count();
+        let packets = count.div_ceil(8);
+        let mut segments = [none; MOST / 8];
+        let (mut open, mut margin) = (0, f32x8::ZERO);
+        let (mut starts, mut stops) = (Hull::EMPTY, Hull::EMPTY);
+        for (k, (segments, ends)) in segments.iter_mut().zip(ends[..count].chunks(8)).enumerate() {
+            let mut lanes = [[f32::NAN; 8]; 6];
+            for (lane, [s, t]) in ends.iter().enumerate() {
+                let direction = *t - *s;
+                for axis in 0..3 {
+                    lanes[axis][lane] = s[axis] as f32;
+                    lanes[axis + 3][lane] = direction[axis] as f32;
+                }
+            }
+            let [ox, oy, oz, dx, dy, dz] = lanes.map(f32x8::new);
+            *segments = Segments::new([ox, oy, oz], [dx, dy, dz]);
+            let Segments { origin, direction, end_margin, .. } = segments;
+            let square = dot(direction, direction);
+            let used = square.simd_gt(f32x8::ZERO) & square.simd_lt(f32x8::splat(f32::INFINITY));
+            open |= u64::from(used.to_bitmask()) << (8 * k);
+            margin = margin.fast_max(used.select(*end_margin, f32x8::ZERO));
+            starts.add(origin, used);
+            stops.add(&std::array::from_fn(|axis| origin[axis] + direction[axis]), used);
         }
-    }
-
-    fn surround(&mut self, starts: Interval, ends: Interval, margin: f32) {
-        let far = ends.low.abs().max(ends.high.abs()).max_element();
+        let [[low, high], [far_low, far_high]] = [starts, stops].map(|hull| [hull.low(), hull.high()]);
+        if (high - low + far_high - far_low).length() > NARROW * (far_low + far_high - low - high).length() {
+            return None;
+        }
+        let margin = margin.to_array().into_iter().fold(0.0, f32::max);
+        let far = far_low.abs().max(far_high.abs()).max_element();
         // The margin of a ray is 256 roundoffs of its reach: a sixteenth is more than what is lost in a bound.
         let pad = margin / 16.0 * (1.0 + far);
-        for k in 0..3 {
-            self.bounds[k] = Bound::new(k + 3, starts.low[k] - pad, ends.low[k] - pad, false);
-            self.bounds[k + 3] = Bound::new(k, starts.high[k] + pad, ends.high[k] + pad, true);
-        }
-        self.hulls = [starts, ends].map(|hull| {
-            let (middle, half) = (0.5 * (hull.low + hull.high), 0.5 * (hull.high - hull.low));
-            [middle, half].map(|v| v.to_array().map(f32x8::splat))
+        let bounds = std::array::from_fn(|k| match k {
+            0..3 => Bound::new(k + 3, low[k] - pad, far_low[k] - pad, false),
+            _ => Bound::new(k - 3, high[k - 3] + pad, far_high[k - 3] + pad, true),
         });
-        self.end_margin = f32x8::splat(margin);
-        // As a ray's, with the distance of ends from a corner, 1.8 at most in a scene and as much more as they are outside, for the
-        // length of its direction; and as much again for the corner that is a sum.
-        self.edge_margin = f32x8::splat(2.0 * margin * (1.0 + far));
-        self.patience = ALONE * self.open.count_ones() as usize;
+        let hulls = [[low, high], [far_low, far_high]].map(|[low, high]| {
+            [0.5 * (low + high), 0.5 * (high - low)].map(|v| v.to_array().map(f32x8::splat))
+        });
+        Some(Self {
+            facets,
+            ends,
+            slabs: segments.each_ref().map(Slabs::new),
+            segments,
+            packets,
+            open,
+            hidden: 0,
+            bounds,
+            hulls,
+            end_margin: f32x8::splat(margin),
+            // As a ray's, with the distance of ends from a corner, 1.8 at most in a scene and as much more as they are outside, for
+            // the length of its direction; and as much again for the corner that is a sum.
+            edge_margin: f32x8::splat(2.0 * margin * (1.0 + far)),
+            nodes: 0,
+            work: 0,
+            patience: ALONE * open.count_ones() as usize,
+        })
     }
 
     /// Whether nothing cuts a segment, once the tree has been walked; `None` where the segments have not enough in common for that
@@ -282,8 +290,8 @@ impl Slabs {
             let sign = way & f32x8::splat(-0.0);
             f32x8::ONE / (way.abs().fast_max(f32x8::splat(SLOWEST)) | sign)
         });
-        // As of a ray: ten roundoffs of its reach, of which its margin is 256.
-        let pad = inverse.map(|inverse| inverse.abs() * segments.end_margin * f32x8::splat(10.0 / 256.0));
+        let part = f32x8::splat(BOX_MARGIN / MARGIN);
+        let pad = inverse.map(|inverse| inverse.abs() * segments.end_margin * part);
         Self { inverse, start: std::array::from_fn(|k| segments.origin[k] * inverse[k]), pad }
     }
 }
@@ -297,9 +305,6 @@ impl Bound {
         Self { plane, inverse: inverse_8, start, enters: above == (inverse > 0.0) }
     }
 }
-
-/// What moves less along an axis does not move: 1 over it is far from infinite.
-const SLOWEST: f32 = 1e-20;
 
 impl Query for Beam<'_> {
     #[inline(always)]

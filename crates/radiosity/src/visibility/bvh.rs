@@ -2,8 +2,9 @@
 
 use super::build;
 use super::facet::Facet;
-use super::packet::Packet;
+use super::packet::{Packet, Triangles};
 use glam::DVec3;
+use std::hint::black_box;
 use std::ops::ControlFlow;
 use wide::f32x8;
 
@@ -12,6 +13,9 @@ pub(super) const LEAF: u32 = 1 << 31;
 
 /// The deepest tree that [`build`] makes, in nodes: the walk keeps one entry for each.
 pub(super) const DEPTH: usize = 64;
+
+/// How many walks are made by turns.
+const ABREAST: usize = 8;
 
 /// Eight boxes side by side, in order along `axis`.
 #[derive(Clone, Debug)]
@@ -57,41 +61,103 @@ impl Bvh {
     /// Visits the packets in all boxes that the query selects, until it ends the walk.
     #[inline(always)]
     pub(super) fn walk(&self, query: &mut impl Query) {
+        let mut walk = Walk::START;
+        while !self.is_empty() && self.step(&mut walk, query) {}
+    }
+
+    /// The same of many queries by turns, which are given back in any order: while one waits for memory the others go on. Alone each is as
+    /// fast where memory is near, and only a little more than half as fast in a million triangles.
+    pub(super) fn walk_each<T, Q: Query>(
+        &self,
+        mut queries: impl Iterator<Item = (T, Q)>,
+        mut done: impl FnMut(T, Q),
+    ) {
         if self.is_empty() {
-            return;
+            return queries.for_each(|(name, query)| done(name, query));
         }
-        let mut waiting = [(0_u32, 0_u32); DEPTH];
-        let mut depth = 0;
-        let mut index = 0;
-        let mut node = &self.nodes[0];
-        let mut selected = query.select(node);
-        loop {
-            while selected == 0 {
-                if depth == 0 {
-                    return;
+        let mut walks: Vec<_> = queries.by_ref().take(ABREAST).map(|query| (Walk::START, query)).collect();
+        while !walks.is_empty() {
+            let mut k = 0;
+            while let Some((walk, (_, query))) = walks.get_mut(k) {
+                if self.step(walk, query) {
+                    self.touch(walk.child);
+                    k += 1;
+                } else {
+                    let (name, query) = match queries.next() {
+                        Some(next) => {
+                            (walk.depth, walk.selected, walk.child) = (0, 0, 0);
+                            std::mem::replace(&mut walks[k].1, next)
+                        }
+                        None => walks.swap_remove(k).1,
+                    };
+                    done(name, query);
                 }
-                depth -= 1;
-                (index, selected) = waiting[depth];
-                node = &self.nodes[index as usize];
-            }
-            let last = query.backwards(node.axis);
-            let lane = if last { 31 - selected.leading_zeros() } else { selected.trailing_zeros() };
-            selected &= !(1 << lane);
-            let child = node.children[lane as usize & 7];
-            if child & LEAF != 0 {
-                let packet = &self.packets[(child ^ LEAF) as usize];
-                if query.visit(packet, (node, lane as usize & 7)).is_break() {
-                    return;
-                }
-            } else {
-                if selected != 0 {
-                    waiting[depth] = (index, selected);
-                    depth += 1;
-                }
-                index = child;
-                node = &self.nodes[index as usize];
-                selected = query.select(node);
             }
         }
     }
+
+    /// Looks at a node or at a packet, and finds which is next; false at the end.
+    #[inline(always)]
+    fn step(&self, walk: &mut Walk, query: &mut impl Query) -> bool {
+        if walk.child & LEAF == 0 {
+            if walk.selected != 0 {
+                walk.waiting[walk.depth] = (walk.node, walk.selected);
+                walk.depth += 1;
+            }
+            walk.node = walk.child;
+            walk.selected = query.select(&self.nodes[walk.node as usize]);
+        } else {
+            let packet = &self.packets[(walk.child ^ LEAF) as usize];
+            let within = (&self.nodes[walk.node as usize], walk.lane);
+            if query.visit(packet, within).is_break() {
+                return false;
+            }
+        }
+        while walk.selected == 0 {
+            if walk.depth == 0 {
+                return false;
+            }
+            walk.depth -= 1;
+            (walk.node, walk.selected) = walk.waiting[walk.depth];
+        }
+        let node = &self.nodes[walk.node as usize];
+        let last = query.backwards(node.axis);
+        let lane = if last { 31 - walk.selected.leading_zeros() } else { walk.selected.trailing_zeros() };
+        walk.selected &= !(1 << lane);
+        walk.lane = lane as usize & 7;
+        walk.child = node.children[walk.lane];
+        true
+    }
+
+    /// Reads of each line of a node or packet that a step needs, so that it is near by the next one.
+    #[inline(always)]
+    fn touch(&self, child: u32) {
+        if child & LEAF == 0 {
+            let Node { bounds, children, .. } = &self.nodes[child as usize];
+            black_box([0, 2, 4].map(|k| bounds[k].as_array()[0]));
+            black_box(children[0]);
+        } else {
+            let Packet { triangles: Triangles { corner, edges: [e, f] }, planes, .. } =
+                &self.packets[(child ^ LEAF) as usize];
+            black_box([&corner[0], &corner[2], &e[1], &f[0], &f[2]].map(|lanes| lanes.as_array()[0]));
+            black_box([1, 3, 5, 7].map(|k| planes[k].offset));
+        }
+    }
+}
+
+/// A walk between two of its steps.
+struct Walk {
+    /// Nodes with the children that are still to be visited.
+    waiting: [(u32, u32); DEPTH],
+    depth: usize,
+    /// The node that it is at, with the same.
+    node: u32,
+    selected: u32,
+    /// What is next: of that node, the child in this lane.
+    child: u32,
+    lane: usize,
+}
+
+impl Walk {
+    const START: Self = Self { waiting: [(0, 0); DEPTH], depth: 0, node: 0, selected: 0, child: 0, lane: 0 };
 }

@@ -51,7 +51,7 @@ impl Frame {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plane {
     normal: DVec3,
-    offset: f64,
+    pub(super) offset: f64,
 }
 
 impl Plane {

@@ -116,19 +116,29 @@ impl Visibility {
     /// answers, many times as fast where segments that follow each other go from about one place to about another.
     pub fn unoccluded_each(&self, segments: &[[DVec3; 2]], clear: &mut Vec<bool>) {
         clear.clear();
-        for segments in segments.chunks(MOST) {
-            if self.occluders.is_empty() {
-                clear.resize(clear.len() + segments.len(), true);
-                continue;
+        clear.resize(segments.len(), true);
+        let within = |k: usize| segments[k].map(|v| self.frame.point(v));
+        let mut alone = Vec::new();
+        for first in (0..segments.len()).step_by(MOST) {
+            let numbers = first..segments.len().min(first + MOST);
+            match Beam::new(&self.facets, numbers.clone().map(within)) {
+                Some(mut beam) => {
+                    self.occluders.walk(&mut beam);
+                    for k in numbers {
+                        match beam.is_clear(k - first) {
+                            Some(is_clear) => clear[k] = is_clear,
+                            None => alone.push(k),
+                        }
+                    }
+                }
+                None => alone.extend(numbers),
             }
-            let mut beam =
-                Beam::new(&self.facets, segments.iter().map(|ends| ends.map(|v| self.frame.point(v))));
-            self.occluders.walk(&mut beam);
-            let alone = |[s, t]: [DVec3; 2]| self.unoccluded(s, t);
-            clear.extend(
-                (0..).zip(segments).map(|(k, ends)| beam.is_clear(k).unwrap_or_else(|| alone(*ends))),
-            );
         }
+        let queries = alone.into_iter().filter_map(|k| {
+            let [s, t] = within(k);
+            Some((k, Blocker { facets: &self.facets, s, t, ray: Ray::new(s, t)?, found: None }))
+        });
+        self.occluders.walk_each(queries, |k, query| clear[k] = query.found.is_none());
     }
 
     /// Whether no polygon at all cuts the open segment from s to t, wherever these are: beyond the walls too.
@@ -176,10 +186,13 @@ impl Visibility {
         let end = |direction: &DVec3| s + reach * *direction;
         let of_chunk = |directions: &[DVec3]| {
             let mut beam = Beam::new(&self.facets, directions.iter().map(|direction| [s, end(direction)]));
-            self.occluders.walk(&mut beam);
-            self.walls.walk(&mut beam);
+            if let Some(beam) = &mut beam {
+                self.occluders.walk(beam);
+                self.walls.walk(beam);
+            }
+            let together = |k: usize| beam.as_ref().and_then(|beam| beam.is_clear(k));
             let alone = |k: usize| self.is_clear_within(s, end(&directions[k]));
-            (0..directions.len()).filter(|&k| beam.is_clear(k).unwrap_or_else(|| alone(k))).count()
+            (0..directions.len()).filter(|&k| together(k).unwrap_or_else(|| alone(k))).count()
         };
         directions.chunks(MOST).map(of_chunk).sum()
     }

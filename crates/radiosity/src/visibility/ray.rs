@@ -2,29 +2,23 @@
 
 use super::bvh::{Node, Query};
 use super::facet::Facet;
-use super::packet::{Packet, Segments};
+use super::packet::{BOX_MARGIN, HALF, MARGIN, Packet, SLOWEST, Segments};
 use glam::DVec3;
 use std::ops::ControlFlow;
 use wide::f32x8;
 
-/// The unit roundoff of f32.
-const ROUNDOFF: f32 = 0.5 * f32::EPSILON;
-
-/// Half the longest side that a scene may have in its unit.
-const HALF: f32 = 0.5;
-
-/// A segment in eight equal lanes, with margins for what f32 may be wrong by.
-///
-/// To first order in the roundoff ε, with max norms |·|, each of the products by which a packet finds u and v
-/// is off by at most 48 ε |d| (|s| + ½) |e|, that for τ by 48 ε (|s| + ½) |e|², and the determinant by
-/// 36 ε |d| |e|². u + v − determinant with a determinant of doubtful sign takes 2·48 + 3·36 = 204 of these.
+/// A segment, with margins for what f32 may be wrong by (see [`Segments`]).
 pub(super) struct Ray {
-    pub(super) segment: Segments,
-    inverse: [f32x8; 3],
+    origin: [f32; 3],
+    direction: [f32; 3],
+    end: f32,
+    side_margin: f32,
+    end_margin: f32,
+    inverse: [f32; 3],
     /// Of each axis, what is taken from plane·inverse to have the parameter there, a little too early.
-    entry: [f32x8; 3],
+    entry: [f32; 3],
     /// The same, a little too late.
-    exit: [f32x8; 3],
+    exit: [f32; 3],
     /// Where in [`Node::bounds`] the ray enters along each axis, and where it leaves.
     sides: [(usize, usize); 3],
 }
@@ -33,33 +27,6 @@ impl Ray {
     /// None where there is no direction: a zero length, an infinity or a NaN.
     #[inline(always)]
     pub(super) fn new(s: DVec3, t: DVec3) -> Option<Self> {
-        let [origin, direction, [side_margin, end_margin, reach]] = Self::lane(s, t)?;
-        // A component of zero becomes one that moves nothing measurable: no infinity, so no NaN, in a product.
-        let inverse: [f32; 3] =
-            std::array::from_fn(|k| direction[k].abs().max(1e-20).copysign(direction[k]).recip());
-        // Twice 3|plane − s| + 2|s| roundoffs.
-        let pad = inverse.map(|i| 10.0 * ROUNDOFF * reach * i.abs());
-        let at = |k: usize| origin[k] * inverse[k];
-        Some(Self {
-            segment: Segments {
-                origin: std::array::from_fn(|k| f32x8::splat(origin[k])),
-                direction: std::array::from_fn(|k| f32x8::splat(direction[k])),
-                end: f32x8::ONE,
-                side_margin: f32x8::splat(side_margin),
-                end_margin: f32x8::splat(end_margin),
-            },
-            inverse: inverse.map(f32x8::splat),
-            entry: std::array::from_fn(|k| f32x8::splat(at(k) + pad[k])),
-            exit: std::array::from_fn(|k| f32x8::splat(at(k) - pad[k])),
-            sides: std::array::from_fn(|k| if direction[k] < 0.0 { (k + 3, k) } else { (k, k + 3) }),
-        })
-    }
-
-    /// What a ray is in one lane: origin, direction, and its two margins with the reach that they are of.
-    ///
-    /// None where there is no direction: a zero length, an infinity or a NaN.
-    #[inline(always)]
-    pub(super) fn lane(s: DVec3, t: DVec3) -> Option<[[f32; 3]; 3]> {
         let d = t - s;
         let length = d.length_squared();
         if !(length > 0.0 && length < f64::INFINITY) {
@@ -67,20 +34,46 @@ impl Ray {
         }
         let (origin, direction) = (s.as_vec3(), d.as_vec3());
         let reach = origin.abs().max_element() + HALF;
-        let margin = 256.0 * ROUNDOFF * reach;
-        let margins = [margin * direction.abs().max_element(), margin, reach];
-        Some([origin.to_array(), direction.to_array(), margins])
+        let end_margin = MARGIN * reach;
+        let side_margin = end_margin * direction.abs().max_element();
+        let (origin, direction) = (origin.to_array(), direction.to_array());
+        let inverse = direction.map(|way| way.abs().max(SLOWEST).copysign(way).recip());
+        let pad = inverse.map(|i| BOX_MARGIN * reach * i.abs());
+        let at = |k: usize| origin[k] * inverse[k];
+        Some(Self {
+            origin,
+            direction,
+            end: 1.0,
+            side_margin,
+            end_margin,
+            inverse,
+            entry: std::array::from_fn(|k| at(k) + pad[k]),
+            exit: std::array::from_fn(|k| at(k) - pad[k]),
+            sides: std::array::from_fn(|k| if direction[k] < 0.0 { (k + 3, k) } else { (k, k + 3) }),
+        })
+    }
+
+    /// The segment, eight times.
+    #[inline(always)]
+    fn segment(&self) -> Segments {
+        Segments {
+            origin: self.origin.map(f32x8::splat),
+            direction: self.direction.map(f32x8::splat),
+            end: f32x8::splat(self.end),
+            side_margin: f32x8::splat(self.side_margin),
+            end_margin: f32x8::splat(self.end_margin),
+        }
     }
 
     /// A bit for each box that the ray may meet before its end.
     #[inline(always)]
     fn select(&self, node: &Node) -> u32 {
         let mut enters = f32x8::ZERO;
-        let mut leaves = self.segment.end;
+        let mut leaves = f32x8::splat(self.end);
         for k in 0..3 {
-            let (near, far) = self.sides[k];
-            enters = enters.fast_max(node.bounds[near].mul_sub(self.inverse[k], self.entry[k]));
-            leaves = leaves.fast_min(node.bounds[far].mul_sub(self.inverse[k], self.exit[k]));
+            let ((near, far), inverse) = (self.sides[k], f32x8::splat(self.inverse[k]));
+            enters = enters.fast_max(node.bounds[near].mul_sub(inverse, f32x8::splat(self.entry[k])));
+            leaves = leaves.fast_min(node.bounds[far].mul_sub(inverse, f32x8::splat(self.exit[k])));
         }
         enters.simd_le(leaves).to_bitmask()
     }
@@ -138,7 +131,7 @@ impl Query for Blocker<'_> {
 
     #[inline(always)]
     fn visit(&mut self, packet: &Packet, _: (&Node, usize)) -> ControlFlow<()> {
-        self.found = blocker(packet, &self.ray.segment, self.facets, [self.s, self.t]);
+        self.found = blocker(packet, &self.ray.segment(), self.facets, [self.s, self.t]);
         if self.found.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
@@ -178,12 +171,12 @@ impl Query for Nearest<'_> {
 
     #[inline(always)]
     fn visit(&mut self, packet: &Packet, _: (&Node, usize)) -> ControlFlow<()> {
-        for lane in bits(packet.triangles.candidates(&self.ray.segment).possible.into()) {
+        for lane in bits(packet.triangles.candidates(&self.ray.segment()).possible.into()) {
             let polygon = packet.polygons[lane];
             let Some(at) = self.facets[polygon as usize].cut(self.s, self.t) else { continue };
             if self.found.is_none_or(|best| self.comes_before((polygon, at), best)) {
                 self.found = Some((polygon, at));
-                self.ray.segment.end = f32x8::splat(at as f32 * (1.0 + 4.0 * f32::EPSILON));
+                self.ray.end = at as f32 * (1.0 + 4.0 * f32::EPSILON);
             }
         }
         ControlFlow::Continue(())
