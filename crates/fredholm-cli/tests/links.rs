@@ -28,6 +28,11 @@ fn links_and_their_error_are_told() {
     for line in ["links", "clusters", "of the light in the mean square"] {
         assert!(text(&output.stderr).contains(line), "no `{line}` in: {}", text(&output.stderr));
     }
+    let drawn = folder.join("who.svg");
+    let output = fredholm(&folder, &format!("{LINKED} --links who.svg"));
+    let links = &json(&output.stdout)["links"]["links"];
+    let picture = fs::read_to_string(drawn).unwrap();
+    assert!(picture.starts_with("<svg") && picture.contains(&format!("{links} links")), "{links}");
     // What is not said is chosen: a matrix for few patches, links for many.
     let few = json(&fredholm(&folder, "radiosity --patch-count 300 --json -").stdout);
     assert_eq!((few["operator"].as_str(), few["links"].is_null()), (Some("dense"), true));
@@ -125,6 +130,8 @@ fn a_checkpoint_that_is_none_or_another_is_refused() {
     fs::write(folder.join("empty.links"), "").unwrap();
     refused("empty.links", "no checkpoint of fredholm");
     refused("missing.links", "missing.links");
+    let output = fredholm(&folder, "radiosity --operator dense --links a.svg");
+    assert!(text(&output.stderr).contains("--links"), "{}", text(&output.stderr));
     let output = fredholm(&folder, "radiosity --operator dense --checkpoint a.links");
     assert!(text(&output.stderr).contains("--operator hierarchical"), "{}", text(&output.stderr));
 }

@@ -7,7 +7,7 @@ pub use hierarchical::Links;
 use crate::closure::Closure;
 use crate::elements::{Elements, Space};
 use crate::form_factor::{FormFactors, point_to_point};
-use crate::hierarchical::{Kept, KeptError};
+use crate::hierarchical::{Hierarchical, Kept, KeptError};
 use crate::kernel::Lambertian;
 use crate::lights;
 use crate::patches::Patches;
@@ -181,6 +181,9 @@ pub trait Observer<V: Value>: Sync {
     fn stops(&self) -> bool {
         false
     }
+
+    /// All links are there.
+    fn linked(&mut self, _links: &Hierarchical) {}
 
     /// `entries` more form factors are computed; called from any thread.
     fn assembled(&self, entries: usize);

@@ -245,6 +245,16 @@ pub struct Radiosity {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub json: Option<PathBuf>,
 
+    /// Who gathers from what, as a picture of the links (hierarchical operator)
+    #[arg(
+        long,
+        value_name = "FILE.svg",
+        value_parser = svg,
+        conflicts_with_all = ["thermal", "accuracy"],
+        help_heading = "Output"
+    )]
+    pub links: Option<PathBuf>,
+
     /// What is known of each patch, as a table or as NumPy arrays
     #[arg(long, value_name = "FILE.csv|.npz|.vtu", value_parser = patches, help_heading = "Output")]
     pub patches: Option<PathBuf>,
@@ -261,6 +271,7 @@ impl Radiosity {
             || self.operator.is_some()
             || self.checkpoint.is_some()
             || self.resume.is_some()
+            || self.links.is_some()
             || self.factor_accuracy.is_some()
             || self.tolerance.is_some()
             || self.iterations.is_some()
@@ -394,6 +405,11 @@ pub struct Size {
     pub width: usize,
     /// Down.
     pub height: usize,
+}
+
+/// The name of a drawing.
+fn svg(text: &str) -> Result<PathBuf, String> {
+    with_extension(text, &["svg"])
 }
 
 /// The longest side of a picture, and the most pixels: 8192 × 8192 of them take some 4 GB while they are drawn.

@@ -24,7 +24,7 @@ use self::frames::Frames;
 use self::html::Recording;
 use self::outputs::{Outputs, write_field, write_png};
 use self::picture::{draw, view};
-use self::progress::Watcher;
+use self::progress::{Watched, Watcher};
 use self::report::Report;
 use self::settings::Settings;
 use self::table::table;
@@ -94,7 +94,7 @@ fn walk<V: Colour>(
     picture::check_map(args.map, units)?;
     let mut seconds = Seconds { load: start.elapsed().as_secs_f64(), ..Seconds::default() };
     let settings = Settings::new(args, wishes, scene, args.scene.as_deref().unwrap_or(Path::new("")))?;
-    let Outputs { picture, patches, html, json, frames } = Outputs::prepare(args, &scene.name)?;
+    let Outputs { picture, patches, html, links, json, frames } = Outputs::prepare(args, &scene.name)?;
 
     let domain = Domain::new(scene, settings.size(scene), &mut seconds)?;
     let frames = frames.map(|folder| Frames::new(folder, args, (&settings, units), &domain));
@@ -104,7 +104,8 @@ fn walk<V: Colour>(
     let recording = html.is_some().then(|| Recording::new(&settings, unknowns)).transpose()?;
     let resume = args.resume.as_deref().map(checkpoint::open).transpose()?;
     let on = (checkpoint.stop(), resume);
-    let mut watcher = Watcher::new((&settings, units), mesh, space.as_ref(), (frames, recording), on);
+    let watcher = Watcher::new((&settings, units), mesh, space.as_ref(), (frames, recording), on);
+    let mut watcher = watcher.drawing_links(links.is_some());
     let options = settings.options(unknowns);
     let solved = match &space {
         None => solve(mesh, visibility, &options, &mut watcher),
@@ -120,7 +121,7 @@ fn walk<V: Colour>(
         }
         solved => solved?,
     };
-    let (mut files, recording) = watcher.finish(&solution, &mut seconds)?;
+    let Watched { mut files, recording, links: drawn } = watcher.finish(&solution, &mut seconds)?;
 
     if let Some(output) = picture {
         let image = timed(&mut seconds.picture, || draw(args, &domain, units, &solution));
@@ -134,6 +135,9 @@ fn walk<V: Colour>(
             || recording.page(&domain, (units, view(args, &domain).camera), settings.size(scene), &solution);
         let page = timed(&mut seconds.frames, page)?;
         files.push(timed(&mut seconds.write, || output.write(|out| out.write_all(page.as_bytes())))?);
+    }
+    if let (Some(output), Some(drawn)) = (links, drawn) {
+        files.push(timed(&mut seconds.write, || output.write(|out| out.write_all(drawn.as_bytes())))?);
     }
     files.extend(json.as_ref().and_then(Json::file));
     seconds.total = start.elapsed().as_secs_f64();

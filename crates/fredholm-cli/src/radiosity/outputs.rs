@@ -18,6 +18,8 @@ pub struct Outputs {
     pub patches: Option<Output>,
     /// A page that shows how the light converges.
     pub html: Option<Output>,
+    /// A picture of the links.
+    pub links: Option<Output>,
     /// The numbers of the run.
     pub json: Option<Json>,
     /// A picture per iteration.
@@ -27,21 +29,24 @@ pub struct Outputs {
 impl Outputs {
     /// Makes sure that all of them can be written. Without any there is a picture by the scene's name.
     pub fn prepare(args: &Radiosity, scene: &str) -> Result<Self> {
-        let nothing_else =
-            args.json.is_none() && args.patches.is_none() && args.frames.is_none() && args.html.is_none();
+        let files = [&args.json, &args.patches, &args.frames, &args.html, &args.links];
+        let nothing_else = files.iter().all(|file| file.is_none());
         let picture = args.output.clone().or_else(|| nothing_else.then(|| PathBuf::from(file_name(scene))));
         Self::of(args, picture.as_deref())
     }
 
     /// The same without a picture by the scene's name, where the numbers are what is asked for.
     pub fn of(args: &Radiosity, picture: Option<&Path>) -> Result<Self> {
-        refuse_twins(&[picture, args.json.as_deref(), args.patches.as_deref(), args.html.as_deref()])?;
+        let [json, patches, html, links] =
+            [&args.json, &args.patches, &args.html, &args.links].map(Option::as_deref);
+        refuse_twins(&[picture, json, patches, html, links])?;
         let prepare = |path: Option<&Path>| path.map(Output::prepare).transpose();
         Ok(Self {
             picture: prepare(picture)?,
-            patches: prepare(args.patches.as_deref())?,
-            html: prepare(args.html.as_deref())?,
-            json: args.json.as_deref().map(Json::prepare).transpose()?,
+            patches: prepare(patches)?,
+            html: prepare(html)?,
+            links: prepare(links)?,
+            json: json.map(Json::prepare).transpose()?,
             frames: args.frames.as_deref().map(Folder::prepare).transpose()?,
         })
     }

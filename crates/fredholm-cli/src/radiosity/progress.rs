@@ -12,6 +12,7 @@ use anyhow::Result;
 use fredholm::relax::Relaxation;
 use indicatif::ProgressBar;
 use radiosity::elements::Space;
+use radiosity::hierarchical::Hierarchical;
 use radiosity::patches::Patches;
 use radiosity::render::Colour;
 use radiosity::scene::Units;
@@ -36,6 +37,18 @@ pub struct Watcher<'a, V> {
     failed: Option<anyhow::Error>,
     stop: Stop,
     resume: Option<File>,
+    /// A picture of the links, once there are some, if it is asked for.
+    links: Option<String>,
+}
+
+/// What was seen.
+pub struct Watched {
+    /// The files of the frames.
+    pub files: Vec<PathBuf>,
+    /// What a page tells.
+    pub recording: Option<Recording>,
+    /// A picture of the links.
+    pub links: Option<String>,
 }
 
 impl<'a, V: Colour> Watcher<'a, V> {
@@ -63,15 +76,17 @@ impl<'a, V: Colour> Watcher<'a, V> {
             failed: None,
             stop,
             resume,
+            links: None,
         }
     }
 
-    /// The files of the frames and what was recorded, and the time of what was watched.
-    pub fn finish(
-        self,
-        solution: &Solution<V>,
-        seconds: &mut Seconds,
-    ) -> Result<(Vec<PathBuf>, Option<Recording>)> {
+    /// The same, which draws the links.
+    pub fn drawing_links(self, draws: bool) -> Self {
+        Self { links: draws.then(String::new), ..self }
+    }
+
+    /// What was seen, and the time of what was watched.
+    pub fn finish(self, solution: &Solution<V>, seconds: &mut Seconds) -> Result<Watched> {
         self.assembly.finish_and_clear();
         self.relaxation.finish_and_clear();
         if let Some(error) = self.failed {
@@ -79,11 +94,14 @@ impl<'a, V: Colour> Watcher<'a, V> {
         }
         seconds.form_factors = solution.assembly_seconds;
         seconds.solve = solution.solve_seconds;
-        let Some(mut frames) = self.frames else { return Ok((Vec::new(), self.recording)) };
-        seconds.solve -= frames.recording;
-        frames.finish(solution.report.residuals.len(), self.patches, &solution.radiosity)?;
-        seconds.frames = frames.preparing + frames.recording;
-        Ok((frames.files, self.recording))
+        let mut files = Vec::new();
+        if let Some(mut frames) = self.frames {
+            seconds.solve -= frames.recording;
+            frames.finish(solution.report.residuals.len(), self.patches, &solution.radiosity)?;
+            seconds.frames = frames.preparing + frames.recording;
+            files = frames.files;
+        }
+        Ok(Watched { files, recording: self.recording, links: self.links })
     }
 }
 
@@ -99,6 +117,12 @@ impl<V: Colour> Observer<V> for Watcher<'_, V> {
 
     fn planned(&self, bytes: u64) {
         self.assembly.set_message(format!("about {} MB", bytes >> 20));
+    }
+
+    fn linked(&mut self, links: &Hierarchical) {
+        if let Some(picture) = &mut self.links {
+            *picture = links.picture();
+        }
     }
 
     fn assembled(&self, entries: usize) {

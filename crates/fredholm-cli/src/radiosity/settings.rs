@@ -85,10 +85,10 @@ impl Settings {
                 name(&settings.solver)
             );
         }
-        let keeps = args.checkpoint.is_some() || args.resume.is_some();
-        if keeps && settings.operator != Operator::Hierarchical {
+        let of_links = args.checkpoint.is_some() || args.resume.is_some() || args.links.is_some();
+        if of_links && settings.operator != Operator::Hierarchical {
             bail!(
-                "--checkpoint and --resume are of the hierarchical operator, and this is {}: say --operator hierarchical, \
+                "--checkpoint, --resume and --links are of the hierarchical operator, and this is {}: say --operator hierarchical, \
                  or leave them out",
                 name(&settings.operator)
             );

@@ -50,6 +50,7 @@ impl<V: Value> Run<'_, V> {
         let interrupted = |kept: Kept| SolveError::Interrupted { patches, kept: Box::new(kept) };
         let operator = plan.go_on(kept, part, SEEDS[1], hooks).map_err(interrupted)?;
         let assembly_seconds = start.elapsed().as_secs_f64();
+        observer.linked(&operator);
         let start = Instant::now();
         let system = System::new(self.source, self.reflectance, &operator)?;
         let mut relaxation = self.relaxation(system);
