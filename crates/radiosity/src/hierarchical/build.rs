@@ -2,7 +2,7 @@
 
 use super::block::Blocks;
 use super::clusters::{Clusters, parts, up_to};
-use super::cut::{Cuts, Hidden};
+use super::cut::{Cuts, Found, Hidden};
 use super::factor::{Column, Factors, Link};
 use super::kept::Kept;
 use super::{Hierarchical, Statistics};
@@ -125,7 +125,8 @@ impl<'a, V: Value> Plan<'a, V> {
         let looked: Vec<Cluster> = self.receivers.iter().copied().step_by(step).collect();
         let work = Work { light, part, seed: LOOKS_SEED, most: TOGETHER };
         let means = self.means(light);
-        let (cuts, factors) = (self.cuts(&means, part), self.factors(&means, work.seed, false));
+        let (cuts, factors) =
+            (self.cuts(&means, part, Some(work.seed)), self.factors(&means, work.seed, false));
         let bytes = |receiver: &Cluster| {
             let (mut found, mut blocks) = (Vec::new(), Blocks::default());
             cuts.of(*receiver, &mut [], &mut found);
@@ -155,8 +156,10 @@ impl<'a, V: Value> Plan<'a, V> {
         &'b self,
         [deviation, brightness, arriving]: &'b [Vec<f64>; 3],
         part: f64,
+        draws: Option<u64>,
     ) -> Cuts<'b> {
-        Cuts { clusters: &self.clusters, visibility: self.visibility, brightness, deviation, arriving, part }
+        let (clusters, visibility) = (&*self.clusters, self.visibility);
+        Cuts { clusters, visibility, brightness, deviation, arriving, part, draws }
     }
 
     pub(super) fn factors<'b>(
@@ -243,7 +246,8 @@ impl<'a, V: Value> Plan<'a, V> {
         (progress, stops): (impl Fn(usize) + Sync, impl Fn() -> bool + Sync),
     ) -> Vec<Blocks> {
         let means = self.means(work.light);
-        let (cuts, factors) = (self.cuts(&means, work.part), self.factors(&means, work.seed, false));
+        let (cuts, factors) =
+            (self.cuts(&means, work.part, Some(work.seed)), self.factors(&means, work.seed, false));
         let tree = &self.clusters.tree;
         let build = |(region, mut blocks): (&Region, Blocks)| {
             let mut wanted = self.receivers[region.receivers.clone()].iter().skip(blocks.len()).peekable();
@@ -272,7 +276,7 @@ impl<'a, V: Value> Plan<'a, V> {
         receiver: Cluster,
         (cuts, factors): (&Cuts<'_>, &Factors<'_>),
         work: &Work<'_>,
-        found: &[Cluster],
+        found: &[Found],
         blocks: &mut Blocks,
     ) {
         let range = self.clusters.tree.range(receiver);
@@ -281,10 +285,10 @@ impl<'a, V: Value> Plan<'a, V> {
         let hull = self.clusters.hull(receiver);
         let worth = work.part * cuts.arriving[receiver.index()];
         let (mut rays, mut column) = (0, Column::default());
-        for (number, &sender) in (0_u64..).zip(found) {
+        for (number, &Found { cluster: sender, weight }) in (0_u64..).zip(found) {
             let clear = factors.clear(hull.as_deref(), sender);
             let worth = worth / cuts.brightness[sender.index()];
-            factors.column(parts, &Link { first, sender, number, clear, worth }, &mut column);
+            factors.column(parts, &Link { first, sender, weight, number, clear, worth }, &mut column);
             rays += column.cast;
             blocks.add(sender, &column.factors);
         }

@@ -23,7 +23,20 @@ pub(super) struct Cuts<'a> {
     pub arriving: &'a [f64],
     /// The part of what arrives that one link may bring.
     pub part: f64,
+    /// Of what hardly counts some clusters are drawn that speak for the others, by this seed; `None` is for all.
+    pub draws: Option<u64>,
 }
+
+/// A cluster of a cut, and how many of its kind it speaks for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Found {
+    pub cluster: Cluster,
+    pub weight: f64,
+}
+
+/// Links that bring less than this part of what one may are drawn: these would be half of all. Where something is between, that is
+/// told by their bounds, before anything of them is computed: in a building of many rooms these are half of a cut.
+pub(super) const SMALL: f64 = 1.0 / 128.0;
 
 /// A cluster is far whose box has half a diagonal of at most this part of its distance: its form factor is found from four parts
 /// of it, each of at most a quarter of the distance.
@@ -77,7 +90,7 @@ impl Hidden {
 impl Cuts<'_> {
     /// The clusters, in the order of the tree, of which some may be single patches; `hidden` is of clusters that the receiver is a
     /// part of, the largest first.
-    pub fn of(&self, receiver: Cluster, hidden: &mut [Hidden], found: &mut Vec<Cluster>) {
+    pub fn of(&self, receiver: Cluster, hidden: &mut [Hidden], found: &mut Vec<Found>) {
         found.clear();
         let here = self.clusters.whole(receiver);
         let most = self.part * self.arriving[receiver.index()];
@@ -102,8 +115,24 @@ impl Cuts<'_> {
                 excess > 1.0 && (blocker.is_none() || !self.seems_hidden(receiver, cluster, rays, hidden));
             match self.clusters.tree.children(cluster) {
                 Some([a, b]) if counts => stack.extend([b, a]),
-                _ => found.push(cluster),
+                _ => {
+                    // What is in full sight costs no rays.
+                    let chance = if blocker.is_some() { energy / (SMALL * most) } else { 1.0 };
+                    let weight = self.drawn(receiver, cluster, chance);
+                    found.extend(weight.map(|weight| Found { cluster, weight }));
+                }
             }
+        }
+    }
+
+    /// How many clusters one speaks for that is drawn with a chance below 1; `None` where it is not.
+    fn drawn(&self, receiver: Cluster, cluster: Cluster, chance: f64) -> Option<f64> {
+        match self.draws {
+            Some(seed) if chance < 1.0 => {
+                let mut random = Random::new(seed ^ SEED, receiver.index() as u64, cluster.index() as u64);
+                (random.next() < chance).then(|| chance.recip())
+            }
+            _ => Some(1.0),
         }
     }
 
@@ -146,5 +175,50 @@ impl Cuts<'_> {
             random.point(&patches[(2 * part + 1) * patches.len() / (2 * PARTS)])
         });
         kernel::unoccluded(&x, &y) > 0.0 && self.visibility.unoccluded(x.position, y.position)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::clusters::up_to;
+    use super::*;
+    use crate::patches::Patches;
+    use crate::scene::cornell_box;
+
+    const SEEDS: u64 = 50;
+
+    #[test]
+    fn clusters_that_are_drawn_speak_for_those_that_are_not() {
+        let scene = cornell_box();
+        let patches = Patches::new(&scene, 0.05).unwrap_or_else(|error| unreachable!("{error}"));
+        let visibility = Visibility::new(&scene.polygons());
+        let clusters = Clusters::new(&patches, &visibility);
+        let (ones, zeros) = (vec![1.0; clusters.wholes.len()], vec![0.0; clusters.wholes.len()]);
+        let part = 0.3;
+        let [brightness, arriving, deviation] = [&ones, &ones, &zeros];
+        let receivers = up_to(&clusters.tree, 16);
+        // How many small clusters are found, and what all of them bring.
+        let small = |draws: Option<u64>| {
+            let (clusters, visibility) = (&clusters, &visibility);
+            let cuts = Cuts { clusters, visibility, brightness, deviation, arriving, part, draws };
+            let (mut count, mut sum, mut found) = (0, 0.0, Vec::new());
+            for receiver in &receivers {
+                cuts.of(*receiver, &mut [], &mut found);
+                for Found { cluster, weight } in &found {
+                    let energy = clusters.whole(*receiver).most(clusters.whole(*cluster));
+                    if energy < SMALL * part {
+                        count += 1;
+                        sum += weight * energy;
+                    }
+                }
+            }
+            (count, sum)
+        };
+        let (all, whole) = small(None);
+        let drawn: Vec<(usize, f64)> = (0..SEEDS).map(|seed| small(Some(seed))).collect();
+        let count = drawn.iter().map(|(count, _)| *count as f64).sum::<f64>() / SEEDS as f64;
+        let mean = drawn.iter().map(|(_, sum)| *sum).sum::<f64>() / SEEDS as f64;
+        assert!(count < 0.95 * all as f64, "{count} of {all}");
+        assert!((mean / whole - 1.0).abs() < 0.02, "{mean} in the mean of {whole}");
     }
 }

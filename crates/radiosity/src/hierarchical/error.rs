@@ -61,14 +61,15 @@ impl<V: Value> Plan<'_, V> {
         let part = part / FINER;
         let means = self.means(light);
         let radiosity = self.clusters.means(u);
-        let (cuts, factors) = (self.cuts(&means, part), self.factors(&means, SEED, true));
+        let (cuts, factors) = (self.cuts(&means, part, None), self.factors(&means, SEED, true));
         let on = |(found, column): &mut (Vec<_>, Column), (leaf, place): &(Cluster, Polygon)| {
             cuts.of(*leaf, &mut [], found);
             let first = self.clusters.tree.range(*leaf).start;
             let most = part * cuts.arriving[leaf.index()];
             (0_u64..).zip(found.iter()).fold(V::splat(0.0), |sum, (number, sender)| {
+                let (sender, weight) = (sender.cluster, sender.weight);
                 let worth = most / cuts.brightness[sender.index()];
-                let link = Link { first, sender: *sender, number, clear: false, worth };
+                let link = Link { first, sender, weight, number, clear: false, worth };
                 factors.column(std::slice::from_ref(place), &link, column);
                 sum + radiosity[sender.index()] * column.factors[0]
             })

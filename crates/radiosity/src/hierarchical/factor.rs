@@ -1,6 +1,7 @@
 //! F_iC = 1/A_i ∫_{P_i} ∫_C K(x, y) dy dx, from a patch to a cluster: its size by formula, what of it arrives by rays.
 
 use super::clusters::Clusters;
+use super::cut::SMALL;
 use super::random::Random;
 use crate::form_factor::{contour, lambert};
 use crate::kernel;
@@ -28,6 +29,8 @@ pub(super) struct Link {
     /// The place of the first of them in the order of the tree.
     pub first: usize,
     pub sender: Cluster,
+    /// What its factors are multiplied by: how many links it speaks for.
+    pub weight: f64,
     /// Its number among the receiver's links.
     pub number: u64,
     /// Whether nothing is between.
@@ -65,9 +68,6 @@ const NEAR: f64 = 0.6;
 const MOST_RAYS: u32 = 16;
 const LEAST_RAYS: u32 = 8;
 const NEAR_MATTERS: f64 = 0.25;
-
-/// Of links that are less than this part of what is worth a ray some are drawn that speak for the others: these would be half of all.
-const SMALL: f64 = 1.0 / 128.0;
 
 /// How often a ray is drawn anew that would leave or arrive at a back.
 const TRIES: usize = 4;
@@ -116,6 +116,9 @@ impl Factors<'_> {
                 };
                 column.factors.extend(parts.iter().map(factor));
             }
+        }
+        if link.weight != 1.0 {
+            column.factors.iter_mut().for_each(|factor| *factor *= link.weight);
         }
         if !link.clear {
             self.cast(parts, link, column);
@@ -298,7 +301,7 @@ mod tests {
         let seen = pairs.filter(sees).find_map(|(i, j)| {
             let parts = &clusters.polygons[i..=i];
             let mut column = Column::default();
-            let link = Link { first: i, sender: leaves[j], number: 0, clear: true, worth: 1.0 };
+            let link = Link { first: i, sender: leaves[j], weight: 1.0, number: 0, clear: true, worth: 1.0 };
             factors(0).column(parts, &link, &mut column);
             let whole = column.factors[0];
             (whole > 0.0).then_some((parts, link, whole))
