@@ -30,9 +30,9 @@ impl Hull {
     /// With eight points more, of which those count that `used` says.
     #[inline(always)]
     fn add(&mut self, points: &[f32x8; 3], used: f32x8) {
-        for k in 0..3 {
-            self.low[k] = self.low[k].fast_min(used.select(points[k], self.low[k]));
-            self.high[k] = self.high[k].fast_max(used.select(points[k], self.high[k]));
+        for ((low, high), point) in self.low.iter_mut().zip(&mut self.high).zip(points) {
+            *low = low.fast_min(used.select(*point, *low));
+            *high = high.fast_max(used.select(*point, *high));
         }
     }
 
