@@ -241,7 +241,9 @@ fn a_picture_shows_who_gathers_from_what() {
         let (patches, visibility) = cut(scene, count);
         let links = linked(&patches, &visibility, 0.1);
         let picture = links.picture();
-        assert!(picture.contains(&format!("{} patches: ", patches.len())), "{}", &picture[..600]);
+        let (patches_told, links_told) = (patches.len(), links.statistics().links);
+        let title = format!("{patches_told} patches, down, gather by {links_told} links");
+        assert!(picture.contains(&title), "{}", &picture[..600]);
         assert!(picture.len() < 4 << 20 && picture.ends_with("</svg>\n"));
         // The parts of the area that are blue, orange and white: 960 squared in all.
         let areas = |colours: &[&str]| {

@@ -57,11 +57,12 @@ impl Hierarchical {
             }
         }
         format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-12 -36 984 1008\" font-family=\"sans-serif\" \
-             text-anchor=\"middle\" shape-rendering=\"crispEdges\">\n\
-             <rect x=\"-12\" y=\"-36\" width=\"984\" height=\"1008\" fill=\"white\"/>\n\
-             <text x=\"480\" y=\"-12\" font-size=\"18\">{n} patches: {} links to clusters of 1 to {largest} of them, the darker the \
-             smaller; orange: not all of a receiver get something</text>\n\
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-12 -56 984 1028\" font-family=\"sans-serif\" \
+             font-size=\"16\" text-anchor=\"middle\" shape-rendering=\"crispEdges\">\n\
+             <rect x=\"-12\" y=\"-56\" width=\"984\" height=\"1028\" fill=\"white\"/>\n\
+             <text x=\"480\" y=\"-32\">{n} patches, down, gather by {} links from clusters of 1 to {largest} of them, across: \
+             the darker the smaller</text>\n\
+             <text x=\"480\" y=\"-12\">blue: all that share a cut get something; orange: not all; white: no link</text>\n\
              <rect x=\"0\" y=\"0\" width=\"960\" height=\"960\" fill=\"none\" stroke=\"#cccccc\"/>\n{body}</svg>\n",
             self.statistics.links,
         )
