@@ -132,6 +132,6 @@ pub(crate) fn told<V: Value>(residuals: &[V], reflected: f64) -> f64 {
     // Noise is lost in the next bounce, in which hundreds of links add up; what all have in common is not, and is as large as
     // it is seen to be, or could be without being seen.
     let common = mean.square().max(mean_square / count).sqrt();
-    let carried = common * reflected / (1.0 - reflected).max(f64::EPSILON);
-    (mean_square + carried * carried).sqrt()
+    let carried = common / (1.0 - reflected).max(f64::EPSILON);
+    (mean_square - mean.square() + carried * carried).sqrt()
 }
