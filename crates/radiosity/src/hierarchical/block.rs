@@ -44,7 +44,7 @@ impl Blocks {
         }
     }
 
-    /// Ends the block that is being made, for so many patches of a cluster, at the cost of so many rays.
+    /// Ends the block that is being made, for the patches of a cluster, so many, at the cost of so many rays.
     pub fn close(&mut self, receiver: Cluster, patches: usize, rays: u64) {
         let (senders, factors) = (self.senders.len(), self.factors.len());
         self.spans.push(Span { receiver, patches: patches as u32, senders, factors, rays });
@@ -102,7 +102,7 @@ impl<'a> Block<'a> {
         self.receiver
     }
 
-    /// How many patches it has factors of: all of the cluster's, or one that stands for them.
+    /// How many patches that has.
     pub fn patches(&self) -> usize {
         self.patches
     }
@@ -114,7 +114,7 @@ impl<'a> Block<'a> {
 
     /// Each sender, with the factors of all patches.
     pub fn columns(&self) -> impl Iterator<Item = (Cluster, &'a [f32])> + use<'a> {
-        self.senders.iter().copied().zip(self.factors.chunks_exact(self.patches.max(1)))
+        self.senders.iter().copied().zip(self.factors.chunks_exact(self.patches))
     }
 
     /// The factors of all patches from a sender, by its number.
@@ -145,7 +145,7 @@ impl<'a> Block<'a> {
         Some((sender, self.column(k)))
     }
 
-    /// What each patch gathers, from the means over all clusters. One patch stands for all of a sketch.
+    /// What each patch gathers, from the means over all clusters.
     pub fn gather<V: Value>(&self, means: &[V], sums: &mut [V]) {
         if self.patches < LANES || self.patches > 2 * LANES {
             return self.gather_few(means, sums);
@@ -198,8 +198,7 @@ impl<'a> Block<'a> {
         sums.fill(V::splat(0.0));
         for (sender, column) in self.columns() {
             let mean = means[sender.index()];
-            let spread = sums.iter_mut().zip(column.iter().cycle());
-            spread.for_each(|(sum, factor)| *sum += mean * f64::from(*factor));
+            sums.iter_mut().zip(column).for_each(|(sum, factor)| *sum += mean * f64::from(*factor));
         }
     }
 }

@@ -164,8 +164,6 @@ pub(super) struct Clusters {
     /// What each patch counts for, in m²: next to nothing where all of it is under something that stands there. Nobody sees that, and
     /// its darkness is no part of the mean of what is seen.
     pub areas: Vec<f64>,
-    /// The area of all patches before each place in the order of the tree, and of all, in m².
-    before: Vec<f64>,
     ascent: Ascent,
 }
 
@@ -203,14 +201,9 @@ impl Clusters {
             };
             wholes[cluster.index()] = Some(whole);
         }
-        let mut before = vec![0.0];
-        before.extend(tree.order().iter().scan(0.0, |sum, patch| {
-            *sum += areas[*patch];
-            Some(*sum)
-        }));
         let wholes: Vec<Whole> = wholes.into_iter().flatten().collect();
         let polygons = tree.order().iter().map(|patch| polygons[*patch].clone()).collect();
-        Self { ascent: Ascent::new(&tree, &wholes), tree, wholes, polygons, areas, before }
+        Self { ascent: Ascent::new(&tree, &wholes), tree, wholes, polygons, areas }
     }
 
     pub fn whole(&self, cluster: Cluster) -> &Whole {
@@ -225,21 +218,6 @@ impl Clusters {
     /// The place of a patch in the order of the tree, if a cluster is one.
     pub fn leaf(&self, cluster: Cluster) -> Option<usize> {
         self.tree.children(cluster).is_none().then(|| self.tree.range(cluster).start)
-    }
-
-    /// The place of the patch of a cluster that is a part `u` of its area in, 0 ≤ u < 1.
-    pub fn at(&self, cluster: Cluster, u: f64) -> usize {
-        let range = self.tree.range(cluster);
-        let (from, to) = (self.before[range.start], self.before[range.end]);
-        let area = from + u * (to - from);
-        // Patches of a cluster are mostly of one size: then it is the first that is tried.
-        let likely = range.start + (u * range.len() as f64) as usize;
-        if self.before[likely] <= area && area < self.before[likely + 1] {
-            likely
-        } else {
-            let within = &self.before[range.start + 1..range.end];
-            range.start + within.partition_point(|before| *before <= area)
-        }
     }
 
     /// A polygon that all of its patches are in: the patch itself, or a rectangle around those of one plane.

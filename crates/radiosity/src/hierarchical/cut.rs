@@ -43,7 +43,7 @@ pub(super) const SMALL: f64 = 1.0 / 128.0;
 const FAR: f64 = 0.5;
 
 /// The least cosine between the normals of a cluster and their mean: what it sends is that of its parts, each with a mean normal.
-const ALIKE: f64 = 0.9;
+pub(super) const ALIKE: f64 = 0.9;
 
 /// The part of what one link may bring by which it may be *wrong*, as noise is not: since the cluster is near, or its patches are
 /// not alike and some are hidden. Errors of that kind add up.

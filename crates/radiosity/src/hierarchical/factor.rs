@@ -1,7 +1,7 @@
 //! F_iC = 1/A_i ∫_{P_i} ∫_C K(x, y) dy dx, from a patch to a cluster: its size by formula, what of it arrives by rays.
 
 use super::clusters::Clusters;
-use super::cut::SMALL;
+use super::cut::{ALIKE, SMALL};
 use super::random::Random;
 use crate::form_factor::{contour, lambert};
 use crate::kernel;
@@ -20,8 +20,12 @@ pub(super) struct Factors<'a> {
     /// Whether to take the mean over four points of a patch, in place of its middle, of what comes from clusters, and from patches
     /// that are three times as far away.
     pub fine: bool,
-    /// How bright each cluster is, if its parts count by that.
-    pub shape: Option<&'a [f64]>,
+    /// How bright each cluster is.
+    pub brightness: &'a [f64],
+    /// Whether the parts of a cluster send by how bright they are beside the whole.
+    pub shaped: bool,
+    /// What comes from all patches before each place in the order of the tree, and from all: area times brightness.
+    pub before: Vec<f64>,
 }
 
 /// What some patches side by side gather from.
@@ -46,6 +50,9 @@ pub(super) struct Column {
     pub factors: Vec<f64>,
     /// Rays cast for them.
     pub cast: u64,
+    /// What comes from each part of the sender, by its brightness: where rays go.
+    shares: Vec<f64>,
+    elements: Vec<Element>,
     rays: Vec<Ray>,
 }
 
@@ -53,7 +60,8 @@ pub(super) struct Column {
 struct Ray {
     patch: usize,
     random: Random,
-    /// Where on the sender, as a place in the order of the tree.
+    /// The part of the sender that it goes to, and where there, as a place in the order of the tree.
+    part: Cluster,
     place: usize,
     ends: Option<[DVec3; 2]>,
 }
@@ -75,15 +83,33 @@ const TRIES: usize = 4;
 /// The golden section: its multiples lie evenly between 0 and 1, however many there are.
 const GOLDEN: f64 = 0.618_033_988_749_895;
 
-/// One element of area of a sender.
+/// The most parts of a sender that are an element of area each: four if their normals are alike.
+const MOST_PARTS: usize = 16;
+
+/// A part of a sender as an element of area.
 #[derive(Clone, Copy)]
 struct Element {
+    part: Cluster,
     centre: DVec3,
-    /// Its normal times its area, and times how bright it is beside the whole.
+    /// Its normal times its area.
     front: DVec3,
+    /// How bright it is beside the whole.
+    beside: f64,
 }
 
-impl Factors<'_> {
+impl<'a> Factors<'a> {
+    /// From light that is so bright, by cluster.
+    pub fn new(clusters: &'a Clusters, visibility: &'a Visibility, brightness: &'a [f64], seed: u64) -> Self {
+        let tree = &clusters.tree;
+        let sent = |(leaf, patch): (Cluster, &usize)| brightness[leaf.index()] * clusters.areas[*patch];
+        let before = tree.leaves().zip(tree.order()).map(sent).scan(0.0, |sum, sent| {
+            *sum += sent;
+            Some(*sum)
+        });
+        let before = std::iter::once(0.0).chain(before).collect();
+        Self { clusters, visibility, seed, fine: false, brightness, shaped: false, before }
+    }
+
     /// Whether it is proved that nothing is between a polygon and a cluster.
     pub fn clear(&self, from: Option<&Polygon>, to: Cluster) -> bool {
         let hull = || self.clusters.hull(to);
@@ -95,6 +121,8 @@ impl Factors<'_> {
     pub fn column(&self, parts: &[Polygon], link: &Link, column: &mut Column) {
         column.cast = 0;
         column.factors.clear();
+        column.shares.clear();
+        column.elements.clear();
         match self.clusters.leaf(link.sender) {
             Some(place) => {
                 let there = &self.clusters.polygons[place];
@@ -104,17 +132,11 @@ impl Factors<'_> {
                 column.factors.extend(parts.iter().enumerate().map(factor));
             }
             None => {
-                let (elements, count) = self.elements(link.sender);
-                let elements = &elements[..count];
-                let factor = |part: &Polygon| {
-                    let at = |x: DVec3| to_elements(x, part.normal(), elements);
-                    if self.fine {
-                        QUARTERS.iter().map(|[s, t]| at(part.point(*s, *t))).sum::<f64>() / 4.0
-                    } else {
-                        at(part.centroid())
-                    }
-                };
-                column.factors.extend(parts.iter().map(factor));
+                self.add_elements(link.sender, &mut column.elements);
+                for part in parts {
+                    let whole = self.to_elements(part, &column.elements, &mut column.shares);
+                    column.factors.push(whole);
+                }
             }
         }
         if link.weight != 1.0 {
@@ -128,8 +150,10 @@ impl Factors<'_> {
     /// Lets arrive what rays do.
     ///
     /// Where all of them go is looked up before the first is cast: so they wait for memory together.
+    /// To each place of a cluster go as many of them as light comes from there: what is near or bright sends more, and less of it is
+    /// hidden, as what lies under others is dark.
     fn cast(&self, parts: &[Polygon], link: &Link, column: &mut Column) {
-        let Column { factors, rays, cast } = column;
+        let Column { factors, rays, cast, shares, elements } = column;
         rays.clear();
         let mut random = Random::new(self.seed, link.first as u64, link.number);
         let begin = random.next();
@@ -151,8 +175,10 @@ impl Factors<'_> {
             }
             for ray in 0..wanted {
                 let u = (begin + GOLDEN * rays.len() as f64).fract();
-                let place = self.clusters.at(link.sender, u);
-                rays.push(Ray { patch: k, place, random: self.random(link, k, ray), ends: None });
+                let shares = &shares[k * elements.len()..(k + 1) * elements.len()];
+                let (part, u) = share(shares, u).map_or((link.sender, u), |(k, u)| (elements[k].part, u));
+                let place = self.at(part, u);
+                rays.push(Ray { patch: k, part, place, random: self.random(link, k, ray), ends: None });
             }
         }
         *cast += rays.len() as u64;
@@ -165,7 +191,7 @@ impl Factors<'_> {
                     ray.ends = Some(ends.map(|end| end.position));
                     break;
                 }
-                ray.place = self.clusters.at(link.sender, ray.random.next());
+                ray.place = self.at(ray.part, ray.random.next());
             }
         }
         for rays in rays.chunk_by(|a, b| a.patch == b.patch) {
@@ -177,6 +203,26 @@ impl Factors<'_> {
             }
             factors[rays[0].patch] *= if all > 0 { f64::from(clear) / f64::from(all) } else { 0.0 };
         }
+    }
+
+    /// The place of the patch of a cluster that a part `u` of what comes from it does from, 0 ≤ u < 1.
+    fn at(&self, cluster: Cluster, u: f64) -> usize {
+        let range = self.clusters.tree.range(cluster);
+        let (from, to) = (self.before[range.start], self.before[range.end]);
+        let sent = from + u * (to - from);
+        // Patches of a cluster mostly send alike: it is looked for from where it then would be, farther and farther away.
+        let likely = range.start + (u * range.len() as f64) as usize;
+        let is_before = |place: usize| self.before[place] <= sent;
+        let (mut low, mut high, mut step) = (likely, likely + 1, 1);
+        while low > range.start && !is_before(low) {
+            (low, high) = (low.saturating_sub(step).max(range.start), low);
+            step *= 2;
+        }
+        while high < range.end && is_before(high) {
+            (low, high) = (high, (high + step).min(range.end));
+            step *= 2;
+        }
+        low + self.before[low + 1..high].partition_point(|before| *before <= sent)
     }
 
     /// Numbers for a ray of a patch.
@@ -213,24 +259,48 @@ impl Factors<'_> {
         here.centroid().distance_squared(there.centroid()) < 4.0 * size * size
     }
 
-    /// Four parts of a cluster, each as one element of area.
-    fn elements(&self, cluster: Cluster) -> ([Element; 4], usize) {
-        let mut elements = [Element { centre: DVec3::ZERO, front: DVec3::ZERO }; 4];
-        let mut count = 0;
-        let beside = |part: Cluster| self.shape.map_or(1.0, |b| b[part.index()] / b[cluster.index()]);
-        let mut add = |part: Cluster| {
+    /// Four parts of a cluster, each as one element of area; more where normals are not alike, which in one element would cancel each
+    /// other.
+    fn add_elements(&self, cluster: Cluster, elements: &mut Vec<Element>) {
+        let children = |part: Cluster| self.clusters.tree.children(part);
+        let element = |part: Cluster| {
             let whole = self.clusters.whole(part);
-            elements[count] = Element { centre: whole.centre, front: whole.front * beside(part) };
-            count += 1;
+            let beside = self.brightness[part.index()] / self.brightness[cluster.index()];
+            Element { part, centre: whole.centre, front: whole.front, beside }
         };
-        let parts = |cluster: Cluster| self.clusters.tree.children(cluster);
-        for half in parts(cluster).unwrap_or([cluster; 2]) {
-            match parts(half) {
-                Some(quarters) => quarters.into_iter().for_each(&mut add),
-                None => add(half),
+        for half in children(cluster).into_iter().flatten() {
+            match children(half) {
+                Some(quarters) => elements.extend(quarters.map(element)),
+                None => elements.push(element(half)),
             }
         }
-        (elements, count)
+        let mut next = 0;
+        while next < elements.len() && elements.len() < MOST_PARTS {
+            let part = elements[next].part;
+            match children(part) {
+                Some(halves) if self.clusters.whole(part).turn.0 < ALIKE => {
+                    elements.swap_remove(next);
+                    elements.extend(halves.map(element));
+                }
+                _ => next += 1,
+            }
+        }
+    }
+
+    /// From a patch to elements of area: their sum, and what comes from each, by its brightness.
+    fn to_elements(&self, here: &Polygon, elements: &[Element], shares: &mut Vec<f64>) -> f64 {
+        let n = here.normal();
+        let middle = [here.centroid()];
+        let quarters = QUARTERS.map(|[s, t]| here.point(s, t));
+        let points: &[DVec3] = if self.fine { &quarters } else { &middle };
+        let mut sum = 0.0;
+        for element in elements {
+            let factor = points.iter().map(|x| element.seen_from(*x, n)).sum::<f64>() / points.len() as f64;
+            let share = factor * element.beside;
+            sum += if self.shaped { share } else { factor };
+            shares.push(share);
+        }
+        sum
     }
 
     fn to_patch(&self, here: &Polygon, there: &Polygon, needed: f64) -> f64 {
@@ -262,16 +332,32 @@ impl Factors<'_> {
     }
 }
 
-/// From a point to elements of area.
-fn to_elements(x: DVec3, n: DVec3, elements: &[Element]) -> f64 {
-    let factor = |Element { centre, front }: &Element| {
-        let between = *centre - x;
+impl Element {
+    /// From a point of a surface.
+    fn seen_from(&self, x: DVec3, n: DVec3) -> f64 {
+        let between = self.centre - x;
         let square = between.length_squared();
-        let (leaves, arrives) = (between.dot(n), -between.dot(*front));
+        let (leaves, arrives) = (between.dot(n), -between.dot(self.front));
         if leaves > 0.0 && arrives > 0.0 { leaves * arrives / (PI * square * square) } else { 0.0 }
-    };
-    elements.iter().map(factor).sum()
+    }
 }
+
+/// The share that a part `u` of the sum of all is in, 0 ≤ u < 1, and how far in; none if there are no shares.
+fn share(shares: &[f64], u: f64) -> Option<(usize, f64)> {
+    let mut rest = u * shares.iter().sum::<f64>();
+    let mut last = None;
+    for (k, share) in shares.iter().enumerate().filter(|(_, share)| **share > 0.0) {
+        if rest < *share {
+            return Some((k, rest / share));
+        }
+        rest -= share;
+        last = Some((k, ALMOST_ONE));
+    }
+    last
+}
+
+/// The largest part of a whole that is none.
+const ALMOST_ONE: f64 = 1.0 - f64::EPSILON;
 
 const QUARTERS: [[f64; 2]; 4] = [[0.25, 0.25], [0.25, 0.75], [0.75, 0.25], [0.75, 0.75]];
 
@@ -290,8 +376,8 @@ mod tests {
         let patches = Patches::new(&scene, 0.1).unwrap_or_else(|error| unreachable!("{error}"));
         let visibility = Visibility::new(&scene.polygons());
         let clusters = Clusters::new(&patches, &visibility);
-        let factors =
-            |seed| Factors { clusters: &clusters, visibility: &visibility, seed, fine: false, shape: None };
+        let ones = vec![1.0; clusters.wholes.len()];
+        let factors = |seed| Factors::new(&clusters, &visibility, &ones, seed);
         let leaves: Vec<Cluster> = clusters.tree.leaves().collect();
         let pairs = (0..leaves.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
         let sees = |(i, j): &(usize, usize)| {

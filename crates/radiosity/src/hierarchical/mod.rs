@@ -79,7 +79,7 @@ impl Hierarchical {
         let mut places = vec![(0, 0); links.order_of.len()];
         for (number, block) in (0..).zip(links.blocks()) {
             for (place, patch) in (0..).zip(links.clusters.tree.members(block.receiver())) {
-                places[*patch] = (number, place.min(block.patches() as u32 - 1));
+                places[*patch] = (number, place);
             }
         }
         links.places = places;
