@@ -66,8 +66,10 @@ struct Ray {
     ends: Option<[DVec3; 2]>,
 }
 
-/// A patch this many times the size of both away is a point.
-const POINT: f64 = 4.0;
+/// A patch this many times the size of both away is a point, and from so many on four points by Gauss's rule: a point each would be as much as
+/// 4 % too bright, and a building of large patches 1.5 %.
+const POINT: f64 = 12.0;
+const POINTS: f64 = 4.0;
 
 /// A patch nearer than their size is integrated over its outline.
 const NEAR: f64 = 0.6;
@@ -307,11 +309,15 @@ impl<'a> Factors<'a> {
         let between = there.centroid() - here.centroid();
         let size = (here.area().sqrt()).max(there.area().sqrt());
         let distance = between.length();
-        if distance > if self.fine { 3.0 * POINT } else { POINT } * size {
-            let square = distance * distance;
-            let (leaves, arrives) = (between.dot(here.normal()), -between.dot(there.normal()));
-            let facing = leaves > 0.0 && arrives > 0.0;
-            return if facing { leaves * arrives * there.area() / (PI * square * square) } else { 0.0 };
+        let front = there.normal() * there.area();
+        if distance > POINT * size {
+            return element_to_element(between, here.normal(), front);
+        }
+        if distance > POINTS * size && !self.fine {
+            let [from, to] = [here, there].map(|polygon| GAUSS.map(|[s, t]| polygon.point(s, t)));
+            let pairs = from.iter().flat_map(|x| to.iter().map(move |y| *y - *x));
+            return pairs.map(|between| element_to_element(between, here.normal(), front)).sum::<f64>()
+                / 16.0;
         }
         // Two planes that meet at an angle β see each other by (1 − cos β)/2 at most.
         let most = 0.5 * (1.0 - here.normal().dot(there.normal()));
@@ -335,11 +341,15 @@ impl<'a> Factors<'a> {
 impl Element {
     /// From a point of a surface.
     fn seen_from(&self, x: DVec3, n: DVec3) -> f64 {
-        let between = self.centre - x;
-        let square = between.length_squared();
-        let (leaves, arrives) = (between.dot(n), -between.dot(self.front));
-        if leaves > 0.0 && arrives > 0.0 { leaves * arrives / (PI * square * square) } else { 0.0 }
+        element_to_element(self.centre - x, n, self.front)
     }
+}
+
+/// From a point with a normal to an element of area so far away, whose normal times its area is `front`.
+fn element_to_element(between: DVec3, n: DVec3, front: DVec3) -> f64 {
+    let square = between.length_squared();
+    let (leaves, arrives) = (between.dot(n), -between.dot(front));
+    if leaves > 0.0 && arrives > 0.0 { leaves * arrives / (PI * square * square) } else { 0.0 }
 }
 
 /// The share that a part `u` of the sum of all is in, 0 ≤ u < 1, and how far in; none if there are no shares.
@@ -358,6 +368,13 @@ fn share(shares: &[f64], u: f64) -> Option<(usize, f64)> {
 
 /// The largest part of a whole that is none.
 const ALMOST_ONE: f64 = 1.0 - f64::EPSILON;
+
+/// The points of a square that integrate cubics.
+const GAUSS: [[f64; 2]; 4] = {
+    const NEAR: f64 = 0.211_324_865_405_187_1;
+    const FAR: f64 = 1.0 - NEAR;
+    [[NEAR, NEAR], [NEAR, FAR], [FAR, NEAR], [FAR, FAR]]
+};
 
 const QUARTERS: [[f64; 2]; 4] = [[0.25, 0.25], [0.25, 0.75], [0.75, 0.25], [0.75, 0.75]];
 
