@@ -17,8 +17,8 @@ pub(super) struct Factors<'a> {
     pub visibility: &'a Visibility,
     /// Other rays with another one.
     pub seed: u64,
-    /// Whether to take the mean over four points of a patch, in place of its middle, of what comes from clusters, and from patches
-    /// that are three times as far away.
+    /// Whether to take the mean over four points of a patch, in place of its middle, of what comes from clusters, and of the exact form
+    /// factors of patches that are no points, in place of some points of theirs.
     pub fine: bool,
     /// How bright each cluster is.
     pub brightness: &'a [f64],
@@ -66,9 +66,10 @@ struct Ray {
     ends: Option<[DVec3; 2]>,
 }
 
-/// A patch this many times the size of both away is a point, and from so many on four points by Gauss's rule: a point each would be as much as
-/// 4 % too bright, and a building of large patches 1.5 %.
+/// A patch this many times the size of both away is a point.
 const POINT: f64 = 12.0;
+
+/// From so many on it is four: as one it would be up to 4 % too bright, and all of a building with large patches 1.5 %.
 const POINTS: f64 = 4.0;
 
 /// A patch nearer than their size is integrated over its outline.
@@ -292,9 +293,8 @@ impl<'a> Factors<'a> {
     /// From a patch to elements of area: their sum, and what comes from each, by its brightness.
     fn to_elements(&self, here: &Polygon, elements: &[Element], shares: &mut Vec<f64>) -> f64 {
         let n = here.normal();
-        let middle = [here.centroid()];
-        let quarters = QUARTERS.map(|[s, t]| here.point(s, t));
-        let points: &[DVec3] = if self.fine { &quarters } else { &middle };
+        let points: &[DVec3] =
+            if self.fine { &QUARTERS.map(|[s, t]| here.point(s, t)) } else { &[here.centroid()] };
         let mut sum = 0.0;
         for element in elements {
             let factor = points.iter().map(|x| element.seen_from(*x, n)).sum::<f64>() / points.len() as f64;
@@ -316,8 +316,8 @@ impl<'a> Factors<'a> {
         if distance > POINTS * size && !self.fine {
             let [from, to] = [here, there].map(|polygon| GAUSS.map(|[s, t]| polygon.point(s, t)));
             let pairs = from.iter().flat_map(|x| to.iter().map(move |y| *y - *x));
-            return pairs.map(|between| element_to_element(between, here.normal(), front)).sum::<f64>()
-                / 16.0;
+            let sum: f64 = pairs.map(|between| element_to_element(between, here.normal(), front)).sum();
+            return sum / (from.len() * to.len()) as f64;
         }
         // Two planes that meet at an angle β see each other by (1 − cos β)/2 at most.
         let most = 0.5 * (1.0 - here.normal().dot(there.normal()));
