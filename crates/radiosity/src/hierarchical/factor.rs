@@ -384,6 +384,48 @@ mod tests {
     use crate::patches::Patches;
     use crate::scene::cornell_box;
 
+    #[test]
+    fn rays_go_to_where_light_comes_from() {
+        let scene = cornell_box();
+        let patches = Patches::new(&scene, 0.1).unwrap_or_else(|error| unreachable!("{error}"));
+        let visibility = Visibility::new(&scene.polygons());
+        let clusters = Clusters::new(&patches, &visibility);
+        // Some patches are a thousand times as bright as their neighbours, some are black.
+        let brightness: Vec<f64> = (0..clusters.wholes.len())
+            .map(|k| [0.0, 1.0, 1000.0, 2.0][(4.0 * Random::new(1, k as u64, 0).next()) as usize])
+            .collect();
+        let factors = Factors::new(&clusters, &visibility, &brightness, 0);
+        let sent = |place: usize| factors.before[place + 1] - factors.before[place];
+        for cluster in clusters.tree.top_down() {
+            let range = clusters.tree.range(cluster);
+            let all: f64 = range.clone().map(sent).sum();
+            if all == 0.0 {
+                continue;
+            }
+            for k in 0..64 {
+                let u = (f64::from(k) + 0.5) / 64.0;
+                let place = factors.at(cluster, u);
+                let before: f64 = (range.start..place).map(sent).sum();
+                let is_there =
+                    before <= u * all * (1.0 + 1e-12) && u * all <= (before + sent(place)) * (1.0 + 1e-12);
+                assert!(range.contains(&place) && is_there, "{place} of {range:?} for {u}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_share_is_found_by_its_size() {
+        let shares = [0.0, 1.0, 0.0, 3.0, 0.0];
+        let at = |u: f64| share(&shares, u);
+        assert_eq!(at(0.0), Some((1, 0.0)));
+        assert_eq!(at(0.125), Some((1, 0.5)));
+        assert_eq!(at(0.25), Some((3, 0.0)));
+        assert_eq!(at(0.625), Some((3, 0.5)));
+        assert_eq!(at(ALMOST_ONE).map(|(k, _)| k), Some(3));
+        assert_eq!(share(&[], 0.5), None);
+        assert_eq!(share(&[0.0], 0.5), None);
+    }
+
     /// Seeds, of which one in ten draws.
     const SEEDS: u64 = 5000;
 
