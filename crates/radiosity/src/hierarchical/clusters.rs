@@ -251,3 +251,13 @@ pub(super) fn parts(tree: &ClusterTree<6>, of: Cluster, most: usize) -> Vec<Clus
     }
     found
 }
+
+/// The Cornell box in patches of a size, in metres, for tests.
+#[cfg(test)]
+pub(super) fn cornell_clusters(size: f64) -> (Visibility, Clusters) {
+    let scene = crate::scene::cornell_box();
+    let patches = Patches::new(&scene, size).unwrap_or_else(|error| unreachable!("{error}"));
+    let visibility = Visibility::new(&scene.polygons());
+    let clusters = Clusters::new(&patches, &visibility);
+    (visibility, clusters)
+}

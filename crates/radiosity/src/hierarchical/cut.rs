@@ -180,19 +180,14 @@ impl Cuts<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::clusters::up_to;
+    use super::super::clusters::{cornell_clusters, up_to};
     use super::*;
-    use crate::patches::Patches;
-    use crate::scene::cornell_box;
 
     const SEEDS: u64 = 50;
 
     #[test]
     fn clusters_that_are_drawn_speak_for_those_that_are_not() {
-        let scene = cornell_box();
-        let patches = Patches::new(&scene, 0.05).unwrap_or_else(|error| unreachable!("{error}"));
-        let visibility = Visibility::new(&scene.polygons());
-        let clusters = Clusters::new(&patches, &visibility);
+        let (visibility, clusters) = cornell_clusters(0.05);
         let (ones, zeros) = (vec![1.0; clusters.wholes.len()], vec![0.0; clusters.wholes.len()]);
         let part = 0.3;
         let [brightness, arriving, deviation] = [&ones, &ones, &zeros];

@@ -380,16 +380,12 @@ const QUARTERS: [[f64; 2]; 4] = [[0.25, 0.25], [0.25, 0.75], [0.75, 0.25], [0.75
 
 #[cfg(test)]
 mod tests {
+    use super::super::clusters::cornell_clusters;
     use super::*;
-    use crate::patches::Patches;
-    use crate::scene::cornell_box;
 
     #[test]
     fn rays_go_to_where_light_comes_from() {
-        let scene = cornell_box();
-        let patches = Patches::new(&scene, 0.1).unwrap_or_else(|error| unreachable!("{error}"));
-        let visibility = Visibility::new(&scene.polygons());
-        let clusters = Clusters::new(&patches, &visibility);
+        let (visibility, clusters) = cornell_clusters(0.1);
         // Some patches are a thousand times as bright as their neighbours, some are black.
         let brightness: Vec<f64> = (0..clusters.wholes.len())
             .map(|k| [0.0, 1.0, 1000.0, 2.0][(4.0 * Random::new(1, k as u64, 0).next()) as usize])
@@ -431,10 +427,7 @@ mod tests {
 
     #[test]
     fn links_that_are_drawn_count_for_those_that_are_not() {
-        let scene = cornell_box();
-        let patches = Patches::new(&scene, 0.1).unwrap_or_else(|error| unreachable!("{error}"));
-        let visibility = Visibility::new(&scene.polygons());
-        let clusters = Clusters::new(&patches, &visibility);
+        let (visibility, clusters) = cornell_clusters(0.1);
         let ones = vec![1.0; clusters.wholes.len()];
         let factors = |seed| Factors::new(&clusters, &visibility, &ones, seed);
         let leaves: Vec<Cluster> = clusters.tree.leaves().collect();
