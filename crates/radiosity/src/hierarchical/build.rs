@@ -189,7 +189,7 @@ impl<'a, V: Value> Plan<'a, V> {
     /// what is no patch.
     ///
     /// Of every patch, though few would say how bright a cluster is: what stands on a floor hides its dark places, and links that think it as
-    /// bright there as anywhere lose light, 4 % of it in a hall with boxes.
+    /// bright there as anywhere lose light, 2 to 6 % of it on the sides of a hall with boxes.
     pub(crate) fn sketched(
         &self,
         source: &[V],
