@@ -1,5 +1,6 @@
 //! Clusters of patches: near each other, and facing alike. Of each what is needed to bound and to compute what it sends.
 
+use super::spot::Spots;
 use super::sweep::Ascent;
 use crate::patches::Patches;
 use crate::polygon::Polygon;
@@ -14,19 +15,27 @@ use std::borrow::Cow;
 /// are of two clusters from about an eighth of its size on.
 const TURN: f64 = 0.25;
 
-/// A cluster as a whole.
+/// A cluster as an element of area, which links are computed from: one line of memory.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Whole {
+#[repr(align(64))]
+pub(super) struct Sender {
     /// The centre of mass.
     pub centre: DVec3,
     /// ∫ n dA, in m².
     pub front: DVec3,
+    /// How alike normals are: the cosine of the largest angle of one to `front`; past a right angle −1.
+    pub alike: f64,
+}
+
+/// What bounds a cluster.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Whole {
     /// In m².
     pub area: f64,
     /// The middle of the box around it, and half of its sides.
     pub middle: DVec3,
     pub half: DVec3,
-    /// The direction of `front`, and how far normals are from it: cosine and sine of the largest angle.
+    /// The mean direction of normals, and how far they are from it: cosine and sine of the largest angle.
     pub axis: DVec3,
     pub turn: (f64, f64),
 }
@@ -38,8 +47,6 @@ impl Whole {
         let (low, high) = corners
             .fold((DVec3::MAX, DVec3::MIN), |(low, high): (DVec3, DVec3), v| (low.min(*v), high.max(*v)));
         Self {
-            centre: polygon.centroid(),
-            front: polygon.normal() * area,
             area,
             middle: 0.5 * (low + high),
             half: 0.5 * (high - low),
@@ -48,16 +55,12 @@ impl Whole {
         }
     }
 
-    fn union(a: &Self, b: &Self) -> Self {
-        let area = a.area + b.area;
-        let front = a.front + b.front;
+    /// Of two, with an axis.
+    fn union(a: &Self, b: &Self, axis: DVec3) -> Self {
         let low = (a.middle - a.half).min(b.middle - b.half);
         let high = (a.middle + a.half).max(b.middle + b.half);
-        let axis = front.normalize_or_zero();
         Self {
-            centre: (a.centre * a.area + b.centre * b.area) / area,
-            front,
-            area,
+            area: a.area + b.area,
             middle: 0.5 * (low + high),
             half: 0.5 * (high - low),
             axis,
@@ -144,6 +147,21 @@ impl Whole {
     }
 }
 
+impl Sender {
+    /// Of a patch that counts for an area.
+    fn of_patch(polygon: &Polygon, area: f64) -> Self {
+        Self { centre: polygon.centroid(), front: polygon.normal() * area, alike: 1.0 }
+    }
+}
+
+/// Both clusters together.
+fn union([a, b]: [(&Whole, &Sender); 2]) -> (Whole, Sender) {
+    let front = a.1.front + b.1.front;
+    let whole = Whole::union(a.0, b.0, front.normalize_or_zero());
+    let centre = (a.1.centre * a.0.area + b.1.centre * b.0.area) / whole.area;
+    (whole, Sender { centre, front, alike: whole.turn.0 })
+}
+
 /// The part of its area that a patch counts for of which nothing is seen.
 const BURIED: f64 = 1e-9;
 
@@ -159,6 +177,9 @@ fn wider(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
 pub(super) struct Clusters {
     pub tree: ClusterTree<6>,
     pub wholes: Vec<Whole>,
+    senders: Vec<Sender>,
+    /// Where rays start and end, by places in the order of the tree.
+    pub spots: Spots,
     /// The patches in the order of the tree: those that are asked for together lie side by side in memory.
     pub polygons: Vec<Polygon>,
     /// What each patch counts for, in m²: next to nothing where all of it is under something that stands there. Nobody sees that, and
@@ -174,9 +195,9 @@ impl Clusters {
         let counted =
             |polygon: &Polygon| polygon.area() * if visibility.exposed(polygon) > 0.0 { 1.0 } else { BURIED };
         let areas: Vec<f64> = polygons.par_iter().map(counted).collect();
-        let all = polygons.iter().zip(&areas).map(|(patch, area)| Whole::of_patch(patch, *area));
-        let all = all.reduce(|a, b| Whole::union(&a, &b));
-        let turn = all.map_or(0.0, |all| TURN * 2.0 * all.half.max_element());
+        let corners = || polygons.iter().flat_map(Polygon::vertices);
+        let [low, high] = [DVec3::min, DVec3::max].map(|end| corners().copied().reduce(end));
+        let turn = low.zip(high).map_or(0.0, |(low, high)| TURN * (high - low).max_element());
         let boxes: Vec<Bounds<6>> = polygons
             .iter()
             .map(|polygon| {
@@ -187,27 +208,38 @@ impl Clusters {
         // Scenes are checked on loading: what is not finite does not come so far.
         let tree = ClusterTree::of_boxes(&boxes, 1)
             .unwrap_or_else(|error| unreachable!("patches have finite corners: {error}"));
-        let mut wholes: Vec<Option<Whole>> = vec![None; tree.len()];
+        // Children first, each after those that come later in the tree.
+        let (mut wholes, mut senders) = (Vec::with_capacity(tree.len()), Vec::with_capacity(tree.len()));
         for cluster in tree.bottom_up() {
-            let whole = match tree.children(cluster) {
+            let (whole, sender) = match tree.children(cluster) {
                 None => {
                     let patch = tree.members(cluster)[0];
-                    Whole::of_patch(&polygons[patch], areas[patch])
+                    (
+                        Whole::of_patch(&polygons[patch], areas[patch]),
+                        Sender::of_patch(&polygons[patch], areas[patch]),
+                    )
                 }
                 Some(parts) => {
-                    let [a, b] = parts.map(|part| wholes[part.index()].as_ref());
-                    a.zip(b).map_or_else(|| unreachable!("children come first"), |(a, b)| Whole::union(a, b))
+                    let [a, b] = parts.map(|part| tree.len() - 1 - part.index());
+                    union([(&wholes[a], &senders[a]), (&wholes[b], &senders[b])])
                 }
             };
-            wholes[cluster.index()] = Some(whole);
+            wholes.push(whole);
+            senders.push(sender);
         }
-        let wholes: Vec<Whole> = wholes.into_iter().flatten().collect();
+        wholes.reverse();
+        senders.reverse();
+        let spots = Spots::new(patches, tree.order());
         let polygons = tree.order().iter().map(|patch| polygons[*patch].clone()).collect();
-        Self { ascent: Ascent::new(&tree, &wholes), tree, wholes, polygons, areas }
+        Self { ascent: Ascent::new(&tree, &wholes), tree, wholes, senders, spots, polygons, areas }
     }
 
     pub fn whole(&self, cluster: Cluster) -> &Whole {
         &self.wholes[cluster.index()]
+    }
+
+    pub fn sender(&self, cluster: Cluster) -> &Sender {
+        &self.senders[cluster.index()]
     }
 
     /// The patch that a cluster is, if it is one.

@@ -170,9 +170,10 @@ impl Cuts<'_> {
     fn arrives(&self, receiver: Cluster, sender: Cluster, ray: u64) -> bool {
         let mut random = Random::new(SEED + ray, receiver.index() as u64, sender.index() as u64);
         let [x, y] = [receiver, sender].map(|cluster| {
-            let patches = &self.clusters.polygons[self.clusters.tree.range(cluster)];
+            let patches = self.clusters.tree.range(cluster);
             let part = (random.next() * PARTS as f64) as usize;
-            random.point(&patches[(2 * part + 1) * patches.len() / (2 * PARTS)])
+            let place = patches.start + (2 * part + 1) * patches.len() / (2 * PARTS);
+            self.clusters.spots.point(&self.clusters.spots.at(place), &mut random)
         });
         kernel::unoccluded(&x, &y) > 0.0 && self.visibility.unoccluded(x.position, y.position)
     }

@@ -1,8 +1,9 @@
 //! F_iC = 1/A_i ∫_{P_i} ∫_C K(x, y) dy dx, from a patch to a cluster: its size by formula, what of it arrives by rays.
 
-use super::clusters::Clusters;
+use super::clusters::{Clusters, Sender};
 use super::cut::{ALIKE, SMALL};
 use super::random::Random;
+use super::spot::Spot;
 use crate::form_factor::{contour, lambert};
 use crate::kernel;
 use crate::polygon::Polygon;
@@ -60,9 +61,9 @@ pub(super) struct Column {
 struct Ray {
     patch: usize,
     random: Random,
-    /// The part of the sender that it goes to, and where there, as a place in the order of the tree.
+    /// The part of the sender that it goes to, and the patch there.
     part: Cluster,
-    place: usize,
+    spot: Spot,
     ends: Option<[DVec3; 2]>,
 }
 
@@ -93,9 +94,7 @@ const MOST_PARTS: usize = 16;
 #[derive(Clone, Copy)]
 struct Element {
     part: Cluster,
-    centre: DVec3,
-    /// Its normal times its area.
-    front: DVec3,
+    sender: Sender,
     /// How bright it is beside the whole.
     beside: f64,
 }
@@ -128,7 +127,7 @@ impl<'a> Factors<'a> {
         column.elements.clear();
         match self.clusters.leaf(link.sender) {
             Some(place) => {
-                let there = &self.clusters.polygons[place];
+                let there = (self.clusters.sender(link.sender), place);
                 let factor = |(k, part): (usize, &Polygon)| {
                     if link.first + k == place { 0.0 } else { self.to_patch(part, there, link.worth) }
                 };
@@ -180,21 +179,23 @@ impl<'a> Factors<'a> {
                 let u = (begin + GOLDEN * rays.len() as f64).fract();
                 let shares = &shares[k * elements.len()..(k + 1) * elements.len()];
                 let (part, u) = share(shares, u).map_or((link.sender, u), |(k, u)| (elements[k].part, u));
-                let place = self.at(part, u);
-                rays.push(Ray { patch: k, part, place, random: self.random(link, k, ray), ends: None });
+                let (spot, random) = (self.spot(part, u), self.random(link, k, ray));
+                rays.push(Ray { patch: k, part, spot, random, ends: None });
             }
         }
         *cast += rays.len() as u64;
         for ray in rays.iter_mut() {
             // Of a cluster, or beyond a horizon, not all faces the patch: what turns its back has no part in the formula either.
             for _ in 0..TRIES {
-                let ends =
-                    [&parts[ray.patch], &self.clusters.polygons[ray.place]].map(|on| ray.random.point(on));
+                let ends = [
+                    ray.random.point(&parts[ray.patch]),
+                    self.clusters.spots.point(&ray.spot, &mut ray.random),
+                ];
                 if kernel::unoccluded(&ends[0], &ends[1]) > 0.0 {
                     ray.ends = Some(ends.map(|end| end.position));
                     break;
                 }
-                ray.place = self.at(ray.part, ray.random.next());
+                ray.spot = self.spot(ray.part, ray.random.next());
             }
         }
         for rays in rays.chunk_by(|a, b| a.patch == b.patch) {
@@ -206,6 +207,11 @@ impl<'a> Factors<'a> {
             }
             factors[rays[0].patch] *= if all > 0 { f64::from(clear) / f64::from(all) } else { 0.0 };
         }
+    }
+
+    /// The patch of a cluster that a part `u` of what comes from it does from, 0 ≤ u < 1.
+    fn spot(&self, cluster: Cluster, u: f64) -> Spot {
+        self.clusters.spots.at(self.at(cluster, u))
     }
 
     /// The place of the patch of a cluster that a part `u` of what comes from it does from, 0 ≤ u < 1.
@@ -267,9 +273,8 @@ impl<'a> Factors<'a> {
     fn add_elements(&self, cluster: Cluster, elements: &mut Vec<Element>) {
         let children = |part: Cluster| self.clusters.tree.children(part);
         let element = |part: Cluster| {
-            let whole = self.clusters.whole(part);
             let beside = self.brightness[part.index()] / self.brightness[cluster.index()];
-            Element { part, centre: whole.centre, front: whole.front, beside }
+            Element { part, sender: *self.clusters.sender(part), beside }
         };
         for half in children(cluster).into_iter().flatten() {
             match children(half) {
@@ -279,9 +284,9 @@ impl<'a> Factors<'a> {
         }
         let mut next = 0;
         while next < elements.len() && elements.len() < MOST_PARTS {
-            let part = elements[next].part;
+            let Element { part, sender, .. } = elements[next];
             match children(part) {
-                Some(halves) if self.clusters.whole(part).turn.0 < ALIKE => {
+                Some(halves) if sender.alike < ALIKE => {
                     elements.swap_remove(next);
                     elements.extend(halves.map(element));
                 }
@@ -297,7 +302,8 @@ impl<'a> Factors<'a> {
             if self.fine { &QUARTERS.map(|[s, t]| here.point(s, t)) } else { &[here.centroid()] };
         let mut sum = 0.0;
         for element in elements {
-            let factor = points.iter().map(|x| element.seen_from(*x, n)).sum::<f64>() / points.len() as f64;
+            let factor =
+                points.iter().map(|x| element.sender.seen_from(*x, n)).sum::<f64>() / points.len() as f64;
             let share = factor * element.beside;
             sum += if self.shaped { share } else { factor };
             shares.push(share);
@@ -305,16 +311,17 @@ impl<'a> Factors<'a> {
         sum
     }
 
-    fn to_patch(&self, here: &Polygon, there: &Polygon, needed: f64) -> f64 {
-        let between = there.centroid() - here.centroid();
-        let size = (here.area().sqrt()).max(there.area().sqrt());
-        let distance = between.length();
-        let front = there.normal() * there.area();
+    /// To a patch at a place in the order of the tree.
+    fn to_patch(&self, here: &Polygon, (there, place): (&Sender, usize), needed: f64) -> f64 {
+        let distance = here.centroid().distance(there.centre);
+        let size = here.area().max(there.front.length()).sqrt();
         if distance > POINT * size {
-            return element_to_element(between, here.normal(), front);
+            return there.seen_from(here.centroid(), here.normal());
         }
+        let there = &self.clusters.polygons[place];
         if distance > POINTS * size && !self.fine {
             let [from, to] = [here, there].map(|polygon| GAUSS.map(|[s, t]| polygon.point(s, t)));
+            let front = there.normal() * there.area();
             let pairs = from.iter().flat_map(|x| to.iter().map(move |y| *y - *x));
             let sum: f64 = pairs.map(|between| element_to_element(between, here.normal(), front)).sum();
             return sum / (from.len() * to.len()) as f64;
@@ -338,7 +345,7 @@ impl<'a> Factors<'a> {
     }
 }
 
-impl Element {
+impl Sender {
     /// From a point of a surface.
     fn seen_from(&self, x: DVec3, n: DVec3) -> f64 {
         element_to_element(self.centre - x, n, self.front)

@@ -18,6 +18,7 @@ mod lines;
 mod picture;
 mod random;
 mod relaxed;
+mod spot;
 mod sweep;
 
 pub use build::{Light, Plan};

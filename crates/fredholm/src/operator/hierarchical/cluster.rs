@@ -1,6 +1,7 @@
 //! {0, …, n − 1} = τ₁ ∪ τ₂, each cut again: a tree of clusters of points that are near each other (Hackbusch 2015, §5.4).
 
 use rayon::prelude::*;
+use std::num::NonZeroU32;
 use std::ops::Range;
 
 /// The box low ≤ x ≤ high with sides along the axes.
@@ -80,15 +81,18 @@ impl Cluster {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClusterTree<const D: usize> {
     order: Vec<usize>,
-    nodes: Vec<Node<D>>,
+    nodes: Vec<Node>,
+    bounds: Vec<Bounds<D>>,
 }
 
-#[derive(Clone, Debug, PartialEq)]
-struct Node<const D: usize> {
-    range: Range<usize>,
-    bounds: Bounds<D>,
+/// What a walk reads of a cluster, apart from its box and small: walks of a million clusters wait for memory.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Node {
+    /// Its places.
+    start: u32,
+    end: u32,
     /// The second child; the first one is the next node. `None` for a leaf.
-    second: Option<usize>,
+    second: Option<NonZeroU32>,
 }
 
 /// A point that is nowhere.
@@ -135,13 +139,15 @@ impl<const D: usize> ClusterTree<D> {
         }
         let leaf = leaf.max(1);
         let mut order: Vec<usize> = (0..boxes.len()).collect();
-        let unknown = Node { range: 0..0, bounds: Bounds { low: [0.0; D], high: [0.0; D] }, second: None };
-        let mut nodes = vec![unknown; if boxes.is_empty() { 0 } else { count(boxes.len(), leaf) }];
+        let clusters = if boxes.is_empty() { 0 } else { count(boxes.len(), leaf) };
+        let mut nodes = vec![Node::default(); clusters];
+        let mut bounds = vec![Bounds::of_point([0.0; D]); clusters];
         if !boxes.is_empty() {
             let centres: Vec<_> = boxes.iter().map(Bounds::centre).collect();
-            Cutting { boxes, centres: &centres, leaf }.cut(0, 0, &mut order, &mut nodes);
+            let cutting = Cutting { boxes, centres: &centres, leaf };
+            cutting.cut((0, 0), &mut order, (&mut nodes, &mut bounds));
         }
-        Ok(Self { order, nodes })
+        Ok(Self { order, nodes, bounds })
     }
 
     /// How many clusters there are.
@@ -166,7 +172,8 @@ impl<const D: usize> ClusterTree<D> {
 
     /// The places of a cluster's points in [`Self::order`].
     pub fn range(&self, cluster: Cluster) -> Range<usize> {
-        self.nodes[cluster.index()].range.clone()
+        let Node { start, end, .. } = self.nodes[cluster.index()];
+        start as usize..end as usize
     }
 
     /// The numbers of a cluster's points.
@@ -176,12 +183,12 @@ impl<const D: usize> ClusterTree<D> {
 
     /// The box of a cluster's points, with their extent.
     pub fn bounds(&self, cluster: Cluster) -> &Bounds<D> {
-        &self.nodes[cluster.index()].bounds
+        &self.bounds[cluster.index()]
     }
 
     /// The two parts of a cluster; `None` for a leaf.
     pub fn children(&self, cluster: Cluster) -> Option<[Cluster; 2]> {
-        self.nodes[cluster.index()].second.map(|second| [Cluster(cluster.0 + 1), Cluster(second as u32)])
+        self.nodes[cluster.index()].second.map(|second| [Cluster(cluster.0 + 1), Cluster(second.get())])
     }
 
     /// All clusters, parents before their children.
@@ -218,14 +225,20 @@ struct Cutting<'a, const D: usize> {
 }
 
 impl<const D: usize> Cutting<'_, D> {
-    /// Cuts the points `order`, which begin at place `first`, into `nodes`, the first of which is number `number`.
-    fn cut(&self, first: usize, number: usize, order: &mut [usize], nodes: &mut [Node<D>]) {
+    /// Cuts the points `order`, which begin at place `first`, into nodes and boxes, the first of which is number `number`.
+    fn cut(
+        &self,
+        (first, number): (usize, usize),
+        order: &mut [usize],
+        (nodes, bounds): (&mut [Node], &mut [Bounds<D>]),
+    ) {
         let n = order.len();
-        let (node, below) = nodes.split_at_mut(1);
-        node[0].range = first..first + n;
+        let ((node, below), (whole, parts)) = (nodes.split_at_mut(1), bounds.split_at_mut(1));
+        let [start, end] = [first, first + n].map(|place| place as u32);
+        node[0] = Node { start, end, second: None };
         if n <= self.leaf {
             order.sort_unstable();
-            node[0].bounds = union(order.iter().map(|i| self.boxes[*i]));
+            whole[0] = union(order.iter().map(|i| self.boxes[*i]));
             return;
         }
         self.halve(order);
@@ -233,15 +246,16 @@ impl<const D: usize> Cutting<'_, D> {
         let size = count(half, self.leaf);
         let ((left, right), (some, others)) = (order.split_at_mut(half), below.split_at_mut(size));
         let second = number + 1 + size;
-        let mut one = || self.cut(first, number + 1, left, some);
-        let mut other = || self.cut(first + half, second, right, others);
+        node[0].second = NonZeroU32::new(second as u32);
+        let (one_part, other_part) = parts.split_at_mut(size);
+        let mut one = || self.cut((first, number + 1), left, (some, one_part));
+        let mut other = || self.cut((first + half, second), right, (others, other_part));
         if n < ALONE {
             (one(), other())
         } else {
             rayon::join(one, other)
         };
-        node[0].bounds = below[0].bounds.union(&below[size].bounds);
-        node[0].second = Some(second);
+        whole[0] = parts[0].union(&parts[size]);
     }
 
     /// Brings the half that comes first along the longest side to the front; of equals the one with the lesser number.
