@@ -1,7 +1,7 @@
 //! From patches to links: a tree, then cuts, then the factors of each link.
 
 use super::block::Blocks;
-use super::clusters::{Clusters, parts, up_to};
+use super::clusters::{Clusters, up_to};
 use super::cut::{Cuts, Found, Hidden};
 use super::factor::{Column, Factors, Link};
 use super::kept::Kept;
@@ -70,8 +70,10 @@ const SKETCH: (f64, usize) = (1e-3, 20);
 /// A scene that reflects more than that in the mean has this ambient term.
 const MOST_REFLECTED: f64 = 0.95;
 
-/// Patches that share a cut, and patches whose cuts share what seems hidden: some, and in large scenes more.
+/// Patches that share a cut.
 const TOGETHER: usize = 16;
+
+/// Patches that share what seems hidden, at least and at most: more in large scenes.
 const NEIGHBOURS: [usize; 2] = [256, 4096];
 
 /// So many parts of a scene at least are done by themselves: more than there are cores, mostly.
@@ -130,7 +132,7 @@ impl<'a, V: Value> Plan<'a, V> {
             (self.cuts(&means, part, Some(work.seed)), self.factors(&means, work.seed, false));
         let bytes = |receiver: &Cluster| {
             let (mut found, mut blocks) = (Vec::new(), Blocks::default());
-            cuts.of(*receiver, &mut [], &mut found);
+            cuts.of(*receiver, &mut Hidden::from(*receiver), &mut found);
             self.block(*receiver, (&cuts, &factors), &work, &found, &mut blocks);
             blocks.bytes()
         };
@@ -244,19 +246,14 @@ impl<'a, V: Value> Plan<'a, V> {
             (self.cuts(&means, work.part, Some(work.seed)), self.factors(&means, work.seed, false));
         let tree = &self.clusters.tree;
         let build = |(region, mut blocks): (&Region, Blocks)| {
-            let mut wanted = self.receivers[region.receivers.clone()].iter().skip(blocks.len()).peekable();
-            let (mut hidden, mut found) = ([region.cluster; 2].map(Hidden::from), Vec::new());
-            for near in parts(tree, region.cluster, NEIGHBOURS[0]) {
-                hidden[1] = Hidden::from(near);
-                let end = tree.range(near).end;
-                while let Some(receiver) = wanted.next_if(|at| tree.range(**at).start < end) {
-                    if stops() {
-                        return blocks;
-                    }
-                    cuts.of(*receiver, &mut hidden, &mut found);
-                    self.block(*receiver, (&cuts, &factors), work, &found, &mut blocks);
-                    progress(tree.range(*receiver).len());
+            let (mut hidden, mut found) = (Hidden::from(region.cluster), Vec::new());
+            for receiver in self.receivers[region.receivers.clone()].iter().skip(blocks.len()) {
+                if stops() {
+                    return blocks;
                 }
+                cuts.of(*receiver, &mut hidden, &mut found);
+                self.block(*receiver, (&cuts, &factors), work, &found, &mut blocks);
+                progress(tree.range(*receiver).len());
             }
             blocks.shrink();
             blocks

@@ -268,13 +268,8 @@ impl Clusters {
 
 /// The largest clusters of at most so many patches.
 pub(super) fn up_to(tree: &ClusterTree<6>, most: usize) -> Vec<Cluster> {
-    tree.root().map_or_else(Vec::new, |root| parts(tree, root, most))
-}
-
-/// The same of those in a cluster, or the cluster itself.
-pub(super) fn parts(tree: &ClusterTree<6>, of: Cluster, most: usize) -> Vec<Cluster> {
     let mut found = Vec::new();
-    let mut stack = vec![of];
+    let mut stack: Vec<Cluster> = tree.root().into_iter().collect();
     while let Some(cluster) = stack.pop() {
         match tree.children(cluster) {
             Some([a, b]) if tree.range(cluster).len() > most => stack.extend([b, a]),

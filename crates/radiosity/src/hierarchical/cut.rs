@@ -49,16 +49,13 @@ pub(super) const ALIKE: f64 = 0.9;
 /// not alike and some are hidden. Errors of that kind add up.
 const WRONG: f64 = 0.02;
 
-/// How many rays would be expected to arrive at a cluster whose middle is hidden if it brought as much as counts: of so many that it
+/// How many rays would be expected to arrive from a cluster whose middle is hidden if it brought as much as counts: of so many that it
 /// takes, one does, or it seems hidden.
-const SURE: f64 = 4.0;
+const SURE: f64 = 3.0;
 
-/// How many times as many it takes of receivers near each other, of which some may see more than others.
-const SURE_OF_ALL: u64 = 4;
-
-/// The most rays that ask it of one receiver, and of receivers near each other, once for all of them.
-const PROBES: u64 = 64;
-const PROBES_TOGETHER: u64 = 256;
+/// The most rays that ask it. They are those of receivers near each other, once for all of them: a receiver that asked for itself
+/// would take longer to find what is hidden than its links take.
+const PROBES: u64 = 256;
 
 /// So many patches of a cluster, one from each part, are looked from and at.
 const PARTS: usize = 16;
@@ -66,7 +63,7 @@ const PARTS: usize = 16;
 /// Another seed than that of any links.
 const SEED: u64 = 0xc075;
 
-/// What seems hidden from all of a large cluster, of what somebody asked about.
+/// What seems hidden from a cluster, of what somebody in it asked about.
 #[derive(Debug)]
 pub(super) struct Hidden {
     from: Cluster,
@@ -88,9 +85,9 @@ impl Hidden {
 }
 
 impl Cuts<'_> {
-    /// The clusters, in the order of the tree, of which some may be single patches; `hidden` is of clusters that the receiver is a
-    /// part of, the largest first.
-    pub fn of(&self, receiver: Cluster, hidden: &mut [Hidden], found: &mut Vec<Found>) {
+    /// The clusters, in the order of the tree, of which some may be single patches; `hidden` is of a cluster that the receiver is a
+    /// part of, or of itself.
+    pub fn of(&self, receiver: Cluster, hidden: &mut Hidden, found: &mut Vec<Found>) {
         found.clear();
         let here = self.clusters.whole(receiver);
         let most = self.part * self.arriving[receiver.index()];
@@ -111,8 +108,7 @@ impl Cuts<'_> {
                 continue;
             }
             let rays = (SURE * excess).ceil() as u64;
-            let counts =
-                excess > 1.0 && (blocker.is_none() || !self.seems_hidden(receiver, cluster, rays, hidden));
+            let counts = excess > 1.0 && (blocker.is_none() || !self.seems_hidden(cluster, rays, hidden));
             match self.clusters.tree.children(cluster) {
                 Some([a, b]) if counts => stack.extend([b, a]),
                 _ => {
@@ -148,21 +144,19 @@ impl Cuts<'_> {
     }
 
     /// Whether none arrives of as many rays as it takes, if these are not too many.
-    fn seems_hidden(&self, receiver: Cluster, sender: Cluster, rays: u64, hidden: &mut [Hidden]) -> bool {
-        let for_all = rays.saturating_mul(SURE_OF_ALL);
-        let from_all = |Hidden { from, known }: &mut Hidden| {
-            let looked = known.entry(sender.index()).or_insert(Looked::InVain(0));
-            if let Looked::InVain(cast) = *looked {
-                let seen = (cast..for_all).find(|ray| self.arrives(*from, sender, *ray));
-                *looked = seen.map_or(Looked::InVain(cast.max(for_all)), Looked::Seen);
-            }
-            match *looked {
-                Looked::InVain(_) => true,
-                Looked::Seen(first) => first >= for_all,
-            }
-        };
-        for_all <= PROBES_TOGETHER && hidden.iter_mut().any(from_all)
-            || rays <= PROBES && !(0..rays).any(|ray| self.arrives(receiver, sender, ray))
+    fn seems_hidden(&self, sender: Cluster, rays: u64, Hidden { from, known }: &mut Hidden) -> bool {
+        if rays > PROBES {
+            return false;
+        }
+        let looked = known.entry(sender.index()).or_insert(Looked::InVain(0));
+        if let Looked::InVain(cast) = *looked {
+            let seen = (cast..rays).find(|ray| self.arrives(*from, sender, *ray));
+            *looked = seen.map_or(Looked::InVain(cast.max(rays)), Looked::Seen);
+        }
+        match *looked {
+            Looked::InVain(_) => true,
+            Looked::Seen(first) => first >= rays,
+        }
     }
 
     /// Whether a ray between two clusters does: from some patch of one to some of the other, of a few that are in a cache for the
@@ -199,7 +193,7 @@ mod tests {
             let cuts = Cuts { clusters, visibility, brightness, deviation, arriving, part, draws };
             let (mut count, mut sum, mut found) = (0, 0.0, Vec::new());
             for receiver in &receivers {
-                cuts.of(*receiver, &mut [], &mut found);
+                cuts.of(*receiver, &mut Hidden::from(*receiver), &mut found);
                 for Found { cluster, weight } in &found {
                     let energy = clusters.whole(*receiver).most(clusters.whole(*cluster));
                     if energy < SMALL * part {

@@ -2,6 +2,7 @@
 //! other rays.
 
 use super::build::{Light, Plan};
+use super::cut::Hidden;
 use super::factor::{Column, Link};
 use crate::polygon::Polygon;
 use fredholm::operator::hierarchical::Cluster;
@@ -63,7 +64,7 @@ impl<V: Value> Plan<'_, V> {
         let radiosity = self.clusters.means(u);
         let (cuts, factors) = (self.cuts(&means, part, None), self.factors(&means, SEED, true));
         let on = |(found, column): &mut (Vec<_>, Column), (leaf, place): &(Cluster, Polygon)| {
-            cuts.of(*leaf, &mut [], found);
+            cuts.of(*leaf, &mut Hidden::from(*leaf), found);
             let first = self.clusters.tree.range(*leaf).start;
             let most = part * cuts.arriving[leaf.index()];
             (0_u64..).zip(found.iter()).fold(V::splat(0.0), |sum, (number, sender)| {
