@@ -273,11 +273,9 @@ impl<'a, V: Value> Plan<'a, V> {
         let range = self.clusters.tree.range(receiver);
         let first = range.start;
         let parts = &self.clusters.polygons[range];
-        let hull = self.clusters.hull(receiver);
         let worth = work.part * cuts.arriving[receiver.index()];
         let (mut rays, mut column) = (0, Column::default());
-        for (number, &Found { cluster: sender, weight }) in (0_u64..).zip(found) {
-            let clear = factors.clear(hull.as_deref(), sender);
+        for (number, &Found { cluster: sender, weight, clear }) in (0_u64..).zip(found) {
             let worth = worth / cuts.brightness[sender.index()];
             factors.column(parts, &Link { first, sender, weight, number, clear, worth }, &mut column);
             rays += column.cast;

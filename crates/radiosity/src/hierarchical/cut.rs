@@ -3,6 +3,7 @@
 use super::clusters::{Clusters, Whole};
 use super::random::Random;
 use crate::kernel;
+use crate::polygon::Polygon;
 use crate::visibility::Visibility;
 use fredholm::operator::hierarchical::Cluster;
 use std::collections::HashMap;
@@ -27,16 +28,22 @@ pub(super) struct Cuts<'a> {
     pub draws: Option<u64>,
 }
 
-/// A cluster of a cut, and how many of its kind it speaks for.
+/// A cluster of a cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Found {
     pub cluster: Cluster,
+    /// How many of its kind it speaks for.
     pub weight: f64,
+    /// Whether it is proved that nothing is between: then it costs no rays.
+    pub clear: bool,
 }
 
-/// Links that bring less than this part of what one may are drawn: these would be half of all. Where something is between, that is
-/// told by their bounds, before anything of them is computed: in a building of many rooms these are half of a cut.
+/// Links that bring less than this part of what one may are drawn if they cost rays: these would be half of all.
 pub(super) const SMALL: f64 = 1.0 / 128.0;
+
+/// What a link may bring is first told by that of its middle, before anything of it is computed; it counts as no less than this part of
+/// its bound, since elsewhere it may bring more.
+const LIKELY: f64 = 0.1;
 
 /// A cluster is far whose box has half a diagonal of at most this part of its distance: its form factor is found from four parts
 /// of it, each of at most a quarter of the distance.
@@ -90,6 +97,7 @@ impl Cuts<'_> {
     pub fn of(&self, receiver: Cluster, hidden: &mut Hidden, found: &mut Vec<Found>) {
         found.clear();
         let here = self.clusters.whole(receiver);
+        let (hull, centre) = (self.clusters.hull(receiver), self.clusters.sender(receiver).centre);
         let most = self.part * self.arriving[receiver.index()];
         let mut stack: Vec<Cluster> = self.clusters.tree.root().into_iter().collect();
         while let Some(cluster) = stack.pop() {
@@ -112,13 +120,24 @@ impl Cuts<'_> {
             match self.clusters.tree.children(cluster) {
                 Some([a, b]) if counts => stack.extend([b, a]),
                 _ => {
-                    // What is in full sight costs no rays.
-                    let chance = if blocker.is_some() { energy / (SMALL * most) } else { 1.0 };
+                    let clear = blocker.is_none() && self.is_clear(hull.as_deref(), cluster);
+                    let likely = || {
+                        let factor = self.clusters.sender(cluster).seen_from(centre, here.axis);
+                        (factor * self.brightness[cluster.index()]).max(LIKELY * energy)
+                    };
+                    let chance = if clear { 1.0 } else { likely() / (SMALL * most) };
                     let weight = self.drawn(receiver, cluster, chance);
-                    found.extend(weight.map(|weight| Found { cluster, weight }));
+                    found.extend(weight.map(|weight| Found { cluster, weight, clear }));
                 }
             }
         }
+    }
+
+    /// Whether it is proved that nothing is between a polygon and a cluster.
+    fn is_clear(&self, from: Option<&Polygon>, to: Cluster) -> bool {
+        let hull = || self.clusters.hull(to);
+        !self.visibility.hides_anything()
+            || from.zip(hull()).is_some_and(|(a, b)| self.visibility.certainly_clear(a, &b))
     }
 
     /// How many clusters one speaks for that is drawn with a chance below 1; `None` where it is not.
@@ -187,16 +206,16 @@ mod tests {
         let part = 0.3;
         let [brightness, arriving, deviation] = [&ones, &ones, &zeros];
         let receivers = up_to(&clusters.tree, 16);
-        // How many small clusters are found, and what all of them bring.
-        let small = |draws: Option<u64>| {
+        // How many clusters are found that may be drawn, and what all of them bring.
+        let drawable = |draws: Option<u64>| {
             let (clusters, visibility) = (&clusters, &visibility);
             let cuts = Cuts { clusters, visibility, brightness, deviation, arriving, part, draws };
             let (mut count, mut sum, mut found) = (0, 0.0, Vec::new());
             for receiver in &receivers {
                 cuts.of(*receiver, &mut Hidden::from(*receiver), &mut found);
-                for Found { cluster, weight } in &found {
+                for Found { cluster, weight, .. } in &found {
                     let energy = clusters.whole(*receiver).most(clusters.whole(*cluster));
-                    if energy < SMALL * part {
+                    if energy * LIKELY < SMALL * part {
                         count += 1;
                         sum += weight * energy;
                     }
@@ -204,8 +223,8 @@ mod tests {
             }
             (count, sum)
         };
-        let (all, whole) = small(None);
-        let drawn: Vec<(usize, f64)> = (0..SEEDS).map(|seed| small(Some(seed))).collect();
+        let (all, whole) = drawable(None);
+        let drawn: Vec<(usize, f64)> = (0..SEEDS).map(|seed| drawable(Some(seed))).collect();
         let count = drawn.iter().map(|(count, _)| *count as f64).sum::<f64>() / SEEDS as f64;
         let mean = drawn.iter().map(|(_, sum)| *sum).sum::<f64>() / SEEDS as f64;
         assert!(count < 0.95 * all as f64, "{count} of {all}");

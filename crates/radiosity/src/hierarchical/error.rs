@@ -2,7 +2,7 @@
 //! other rays.
 
 use super::build::{Light, Plan};
-use super::cut::Hidden;
+use super::cut::{Found, Hidden};
 use super::factor::{Column, Link};
 use crate::polygon::Polygon;
 use fredholm::operator::hierarchical::Cluster;
@@ -67,10 +67,10 @@ impl<V: Value> Plan<'_, V> {
             cuts.of(*leaf, &mut Hidden::from(*leaf), found);
             let first = self.clusters.tree.range(*leaf).start;
             let most = part * cuts.arriving[leaf.index()];
-            (0_u64..).zip(found.iter()).fold(V::splat(0.0), |sum, (number, sender)| {
-                let (sender, weight) = (sender.cluster, sender.weight);
+            let numbered = (0_u64..).zip(found.iter());
+            numbered.fold(V::splat(0.0), |sum, (number, &Found { cluster: sender, weight, clear })| {
                 let worth = most / cuts.brightness[sender.index()];
-                let link = Link { first, sender, weight, number, clear: false, worth };
+                let link = Link { first, sender, weight, number, clear, worth };
                 factors.column(std::slice::from_ref(place), &link, column);
                 sum + radiosity[sender.index()] * column.factors[0]
             })

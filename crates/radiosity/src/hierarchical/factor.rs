@@ -112,13 +112,6 @@ impl<'a> Factors<'a> {
         Self { clusters, visibility, seed, fine: false, brightness, shaped: false, before }
     }
 
-    /// Whether it is proved that nothing is between a polygon and a cluster.
-    pub fn clear(&self, from: Option<&Polygon>, to: Cluster) -> bool {
-        let hull = || self.clusters.hull(to);
-        !self.visibility.hides_anything()
-            || from.zip(hull()).is_some_and(|(a, b)| self.visibility.certainly_clear(a, &b))
-    }
-
     /// The form factors from patches side by side, or from parts of them.
     pub fn column(&self, parts: &[Polygon], link: &Link, column: &mut Column) {
         column.cast = 0;
@@ -347,7 +340,7 @@ impl<'a> Factors<'a> {
 
 impl Sender {
     /// From a point of a surface.
-    fn seen_from(&self, x: DVec3, n: DVec3) -> f64 {
+    pub fn seen_from(&self, x: DVec3, n: DVec3) -> f64 {
         element_to_element(self.centre - x, n, self.front)
     }
 }

@@ -78,3 +78,32 @@ impl Frame {
         DVec2::new(from.dot(self.along), from.dot(self.across))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Scene, Surface};
+
+    #[test]
+    fn points_are_those_of_the_polygons_and_on_their_planes() {
+        let at = |x: f64, y: f64| DVec3::new(1.0, 2.0, 3.0) + x * DVec3::X + y * DVec3::new(0.0, 0.6, 0.8);
+        let polygons = vec![
+            Polygon::quadrilateral(at(0.0, 0.0), at(4.0, 0.5), at(2.5, 3.0), at(-0.5, 2.0)),
+            Polygon::triangle(at(5.0, 0.0), at(8.0, 1.0), at(6.0, 4.0)),
+        ];
+        let surface = Surface { name: "s".into(), reflectance: 0.5, emission: 1.0, polygons };
+        let scene = Scene { name: "test".into(), surfaces: vec![surface], lights: Vec::new(), camera: None };
+        let patches = Patches::new(&scene, 0.3).unwrap();
+        let order: Vec<usize> = (0..patches.len()).rev().collect();
+        let spots = Spots::new(&patches, &order);
+        for (place, patch) in order.iter().enumerate() {
+            let [mut one, mut other] = [(); 2].map(|()| Random::new(1, *patch as u64, 0));
+            let polygon = &patches.polygons[*patch];
+            let (point, exact) = (spots.point(&spots.at(place), &mut one), other.point(polygon));
+            assert!(
+                point.position.distance(exact.position) < 1e-6 && point.normal.distance(exact.normal) < 1e-12
+            );
+            assert!(polygon.height_of(point.position).abs() < 1e-14);
+        }
+    }
+}
