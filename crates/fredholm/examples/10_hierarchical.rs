@@ -46,7 +46,7 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // Too much is refused before it is taken. A million unknowns in the plane, each seen from all others.
     let points: Vec<[f64; 2]> = (0..1_000_000).map(|k| [f64::from(k % 1000), f64::from(k / 1000)]).collect();
-    let options = Options { tolerance: 1e-4, memory: Some(1_000_000_000), ..Options::default() };
+    let options = Options { tolerance: 1e-4, memory: 1_000_000_000, ..Options::default() };
     let refused =
         Plan::new(&Decay(&points), &points, options)?.assemble(|_| ()).expect_err("a gigabyte is not enough");
     println!("{refused}");

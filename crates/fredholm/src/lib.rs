@@ -252,6 +252,7 @@ pub mod discretize;
 pub mod equation;
 pub mod kernel;
 pub mod krylov;
+pub mod memory;
 pub mod methods;
 pub mod neumann;
 pub mod operator;

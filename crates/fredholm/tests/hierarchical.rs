@@ -188,10 +188,10 @@ fn memory_is_told_before_it_is_taken_and_refused() {
     let coupling = of(line(20_000), radial(f64::ln));
     let plan =
         |memory| Plan::new(&coupling, &coupling.points, Options { memory, ..Options::default() }).unwrap();
-    let told = plan(None).bytes();
-    let taken = plan(Some(told)).assemble(|_| ()).unwrap().statistics().bytes;
+    let told = plan(Options::default().memory).bytes();
+    let taken = plan(told).assemble(|_| ()).unwrap().statistics().bytes;
     assert!(taken <= told && told < 2 * taken, "{told} told, {taken} taken");
-    let refused = plan(Some(taken / 2)).assemble(|_| panic!("something was made")).unwrap_err();
+    let refused = plan(taken / 2).assemble(|_| panic!("something was made")).unwrap_err();
     assert!(matches!(refused, HierarchicalError::Memory { unknowns: 20_000, .. }), "{refused}");
     assert!(refused.to_string().contains("take a larger tolerance"), "{refused}");
 }

@@ -2,10 +2,10 @@
 
 use super::laid::Laid;
 use crate::radiosity::lights::Lights;
-use crate::radiosity::memory;
 use crate::radiosity::table::{grouped, last, of_mesh};
 use crate::radiosity::timing::Seconds;
 use crate::text::{self, percent};
+use fredholm::memory;
 use fredholm::value::Value;
 use radiosity::adaptive::Bound;
 use radiosity::scene::{CleanUp, Scene, Units};

@@ -7,7 +7,6 @@ mod domain;
 pub mod frames;
 mod html;
 pub mod lights;
-pub mod memory;
 pub mod outputs;
 mod picture;
 mod progress;

@@ -2,10 +2,10 @@
 
 use super::domain::Domain;
 use super::lights::Lights;
-use super::memory;
 use super::settings::Settings;
 use super::timing::Seconds;
 use crate::args::name;
+use fredholm::memory;
 use fredholm::relax::Outcome;
 use fredholm::value::Value;
 use radiosity::closure::Closure;

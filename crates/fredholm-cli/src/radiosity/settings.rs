@@ -1,10 +1,10 @@
 //! How to solve: the command line's word before the scene file's, the scene file's before the default.
 
 use super::args::{Method, Operator, Radiosity, Solver, Space};
-use super::memory;
 use crate::args::name;
 use anyhow::{Result, bail};
 use clap::ValueEnum;
+use fredholm::memory;
 use fredholm::value::Value;
 use radiosity::patches::{count_for_size, size_for_count};
 use radiosity::scene::{Scene, SolveOptions};

@@ -1,10 +1,11 @@
 //! From patches to links: a tree, then cuts, then the factors of each link.
 
 use super::block::Blocks;
-use super::clusters::{Clusters, up_to};
+use super::clusters::{Clusters, Sender, Whole, up_to};
 use super::cut::{Cuts, Found, Hidden};
 use super::factor::{Column, Factors, Link};
 use super::kept::Kept;
+use super::spot::Spot;
 use super::{Hierarchical, Statistics};
 use crate::patches::Patches;
 use crate::polygon::Polygon;
@@ -141,8 +142,9 @@ impl<'a, V: Value> Plan<'a, V> {
     }
 
     fn tree_bytes(&self) -> u64 {
-        let cluster = size_of::<super::clusters::Whole>() + 14 * size_of::<f64>();
-        (self.clusters.wholes.len() * cluster + self.patches.len() * (size_of::<Polygon>() + 32)) as u64
+        let cluster = size_of::<Whole>() + size_of::<Sender>() + 14 * size_of::<f64>();
+        let patch = size_of::<Polygon>() + size_of::<Spot>() + 4 * size_of::<usize>();
+        (self.clusters.wholes.len() * cluster + self.patches.len() * patch) as u64
     }
 
     /// Brightness, its standard deviation, and what arrives, by cluster.

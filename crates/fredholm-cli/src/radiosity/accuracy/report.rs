@@ -1,9 +1,9 @@
 //! The numbers of a run to an accuracy: what `--json` writes and the table shows.
 
 use crate::radiosity::lights::Lights;
-use crate::radiosity::memory;
 use crate::radiosity::report::{Named, Surface};
 use crate::radiosity::timing::Seconds;
+use fredholm::memory;
 use fredholm::value::Value;
 use radiosity::adaptive::{Bound, Round};
 use radiosity::scene::{CleanUp, Scene, Units};

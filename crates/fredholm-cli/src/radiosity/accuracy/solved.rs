@@ -1,8 +1,8 @@
 //! A scene solved to an accuracy: of few faces by what is between any two of them, of many by links.
 
 use super::Progress;
-use crate::radiosity::memory;
 use anyhow::Result;
+use fredholm::memory;
 use fredholm::value::Value;
 use radiosity::adaptive::{self, Bound, Domain, Round};
 use radiosity::linked;

@@ -1,6 +1,7 @@
 //! ε, η, the size of a leaf, the memory that may be taken; and what can go wrong.
 
 use super::cluster::ClusterError;
+use crate::memory;
 use crate::operator::NotFinite;
 
 /// How F is to be kept.
@@ -13,17 +14,17 @@ pub struct Options {
     /// The most unknowns of a cluster that is not cut any more.
     pub leaf: usize,
     /// The most bytes that may be taken.
-    pub memory: Option<u64>,
+    pub memory: u64,
 }
 
 impl Default for Options {
-    /// ε = 10⁻¹⁰, η = 2, 64 unknowns, no limit.
+    /// ε = 10⁻¹⁰, η = 2, 64 unknowns, as many bytes as [`memory::limit`] says.
     ///
     /// With η = 1 a line has the same blocks, and a sphere takes half as much memory again; with ½ a line does so too. Leaves of
     /// 32 take a fifth less memory on a line and as much on a sphere, and longer to make and to apply; leaves of 128 take half
     /// as much again and a quarter.
     fn default() -> Self {
-        Self { tolerance: 1e-10, eta: 2.0, leaf: 64, memory: None }
+        Self { tolerance: 1e-10, eta: 2.0, leaf: 64, memory: memory::limit() }
     }
 }
 

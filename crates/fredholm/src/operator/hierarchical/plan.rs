@@ -126,14 +126,11 @@ impl<'a, C: Coupling, const D: usize> Plan<'a, C, D> {
     }
 
     fn allow(&self, needed: u64) -> Result<(), HierarchicalError> {
-        match self.options.memory {
-            Some(allowed) if needed > allowed => Err(HierarchicalError::Memory {
-                unknowns: self.tree.order().len(),
-                tolerance: self.options.tolerance,
-                needed,
-                allowed,
-            }),
-            _ => Ok(()),
+        let Options { tolerance, memory: allowed, .. } = self.options;
+        let unknowns = self.tree.order().len();
+        match needed > allowed {
+            true => Err(HierarchicalError::Memory { unknowns, tolerance, needed, allowed }),
+            false => Ok(()),
         }
     }
 

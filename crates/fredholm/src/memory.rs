@@ -2,15 +2,15 @@
 
 use std::fs;
 
-/// The share of the memory that is free which a matrix may take; pictures and the rest of the machine need some too.
+/// The share of the memory that is free which a matrix may take: what is made of it and the rest of the machine need some too.
 const SHARE: f64 = 0.8;
 
-/// The most bytes that a matrix may take; without a limit where the system does not say.
+/// The most bytes that a matrix may take, four fifths of what is free now; `u64::MAX` where the system does not say.
 pub fn limit() -> u64 {
     read("/proc/meminfo", "MemAvailable:").map_or(u64::MAX, |bytes| (bytes as f64 * SHARE) as u64)
 }
 
-/// The most bytes that this process has had in memory at once.
+/// The most bytes that this process has had in memory at once, where the system says.
 pub fn peak() -> Option<u64> {
     read("/proc/self/status", "VmHWM:")
 }
