@@ -69,7 +69,8 @@ impl Frame {
         let (vertices, normal) = (face.vertices(), face.normal());
         // The mean of the vertices is where [`Visibility`](crate::visibility::Visibility) has the plane, too.
         let origin = vertices.iter().sum::<DVec3>() / vertices.len() as f64;
-        let along = (vertices[1] - vertices[0]).reject_from_normalized(normal).normalize();
+        // No edge, which two vertices in one place would not have.
+        let along = normal.any_orthonormal_vector();
         Self { origin, along, across: normal.cross(along), normal }
     }
 
@@ -90,6 +91,7 @@ mod tests {
         let polygons = vec![
             Polygon::quadrilateral(at(0.0, 0.0), at(4.0, 0.5), at(2.5, 3.0), at(-0.5, 2.0)),
             Polygon::triangle(at(5.0, 0.0), at(8.0, 1.0), at(6.0, 4.0)),
+            Polygon::quadrilateral(at(9.0, 0.0), at(9.0, 0.0), at(9.5, 0.0), at(9.0, 0.5)),
         ];
         let surface = Surface { name: "s".into(), reflectance: 0.5, emission: 1.0, polygons };
         let scene = Scene { name: "test".into(), surfaces: vec![surface], lights: Vec::new(), camera: None };
