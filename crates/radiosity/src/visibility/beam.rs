@@ -6,7 +6,7 @@
 //! as those of one ray are.
 
 use super::bvh::{LEAF, Node, Query};
-use super::facet::Facet;
+use super::facet::{Facet, Frame};
 use super::packet::{BOX_MARGIN, MARGIN, Packet, SLOWEST, Segments, Triangles, cross, dot};
 use super::ray::{bits, blocker};
 use glam::{DVec3, Vec3};
@@ -65,14 +65,19 @@ struct Slabs {
     pad: [f32x8; 3],
 }
 
+/// Eight segments side by side.
+pub(super) struct Eight {
+    segments: Segments,
+    slabs: Slabs,
+}
+
 /// Segments on their way through the tree.
 pub(super) struct Beam<'a> {
     facets: &'a [Facet],
-    ends: [[DVec3; 2]; MOST],
-    /// Eight to a packet.
-    segments: [Segments; MOST / 8],
-    slabs: [Slabs; MOST / 8],
-    packets: usize,
+    frame: &'a Frame,
+    /// In metres.
+    ends: &'a [[DVec3; 2]],
+    eights: &'a [Eight],
     /// A bit for each segment that nothing was found to cut so far, of those that go anywhere.
     open: u64,
     hidden: u64,
@@ -101,35 +106,38 @@ const WIDE: usize = 4;
 const FEW: u32 = 8;
 
 impl<'a> Beam<'a> {
-    /// Of up to [`MOST`] segments; `None` where they do not go from about one place to about another.
-    pub(super) fn new(facets: &'a [Facet], segments: impl Iterator<Item = [DVec3; 2]>) -> Option<Self> {
-        let nan = [f32x8::splat(f32::NAN); 3];
-        let none =
-            Segments { origin: nan, direction: nan, end: nan[0], side_margin: nan[0], end_margin: nan[0] };
-        let mut ends = [[DVec3::ZERO; 2]; MOST];
-        let count = ends.iter_mut().zip(segments).map(|(to, from)| *to = from).count();
-        let packets = count.div_ceil(8);
-        let mut segments = [none; MOST / 8];
+    /// Of up to [`MOST`] segments between points in metres; `None` where they do not go from about one place to about another.
+    ///
+    /// `eights` is room for them, taken once for many beams: a beam is made in less time than its kilobytes are moved.
+    pub(super) fn new(
+        facets: &'a [Facet],
+        frame: &'a Frame,
+        ends: &'a [[DVec3; 2]],
+        eights: &'a mut Vec<Eight>,
+    ) -> Option<Self> {
         let (mut open, mut margin) = (0, f32x8::ZERO);
         let (mut starts, mut stops) = (Hull::EMPTY, Hull::EMPTY);
-        for (k, (segments, ends)) in segments.iter_mut().zip(ends[..count].chunks(8)).enumerate() {
+        eights.clear();
+        for (ends, k) in ends.chunks(8).zip(0..) {
             let mut lanes = [[f32::NAN; 8]; 6];
-            for (lane, [s, t]) in ends.iter().enumerate() {
-                let direction = *t - *s;
+            for (lane, ends) in ends.iter().enumerate() {
+                let [s, t] = ends.map(|v| frame.point(v));
+                let direction = t - s;
                 for axis in 0..3 {
                     lanes[axis][lane] = s[axis] as f32;
                     lanes[axis + 3][lane] = direction[axis] as f32;
                 }
             }
             let [ox, oy, oz, dx, dy, dz] = lanes.map(f32x8::new);
-            *segments = Segments::new([ox, oy, oz], [dx, dy, dz]);
-            let Segments { origin, direction, end_margin, .. } = segments;
+            let segments = Segments::new([ox, oy, oz], [dx, dy, dz]);
+            let Segments { origin, direction, end_margin, .. } = &segments;
             let square = dot(direction, direction);
             let used = square.simd_gt(f32x8::ZERO) & square.simd_lt(f32x8::splat(f32::INFINITY));
             open |= u64::from(used.to_bitmask()) << (8 * k);
             margin = margin.fast_max(used.select(*end_margin, f32x8::ZERO));
             starts.add(origin, used);
             stops.add(&std::array::from_fn(|axis| origin[axis] + direction[axis]), used);
+            eights.push(Eight { slabs: Slabs::new(&segments), segments });
         }
         let [[low, high], [far_low, far_high]] = [starts, stops].map(|hull| [hull.low(), hull.high()]);
         if (high - low + far_high - far_low).length() > NARROW * (far_low + far_high - low - high).length() {
@@ -148,10 +156,9 @@ impl<'a> Beam<'a> {
         });
         Some(Self {
             facets,
+            frame,
             ends,
-            slabs: segments.each_ref().map(Slabs::new),
-            segments,
-            packets,
+            eights,
             open,
             hidden: 0,
             bounds,
@@ -172,6 +179,12 @@ impl<'a> Beam<'a> {
         let hidden = self.hidden >> k & 1 == 1;
         let open = self.open >> k & 1 == 1;
         (hidden || !open || self.work <= self.patience).then_some(!hidden)
+    }
+
+    /// Where a segment starts and where it ends.
+    #[inline(always)]
+    fn ends(&self, k: usize) -> [DVec3; 2] {
+        self.ends[k].map(|v| self.frame.point(v))
     }
 
     /// A bit for each triangle that some segment may meet, and for each that surely all do.
@@ -246,7 +259,7 @@ impl<'a> Beam<'a> {
             u64::from(enters.simd_le(leaves).to_bitmask())
         };
         let found =
-            self.slabs[..self.packets].iter().map(of_eight).rev().fold(0, |bits, eight| bits << 8 | eight);
+            self.eights.iter().map(|eight| of_eight(&eight.slabs)).rev().fold(0, |bits, eight| bits << 8 | eight);
         found & self.open
     }
 
@@ -254,8 +267,8 @@ impl<'a> Beam<'a> {
     fn meet_each(&mut self, packet: &Packet, segments: u64) {
         self.work += segments.count_ones() as usize;
         for k in bits(segments) {
-            let segment = self.segments[k / 8].lane(k % 8);
-            let hidden = blocker(packet, &segment, self.facets, self.ends[k]).is_some();
+            let segment = self.eights[k / 8].segments.lane(k % 8);
+            let hidden = blocker(packet, &segment, self.facets, self.ends(k)).is_some();
             self.hidden |= u64::from(hidden) << k;
         }
         self.open &= !self.hidden;
@@ -265,8 +278,8 @@ impl<'a> Beam<'a> {
     fn meet_all(&mut self, packet: &Packet, lane: usize) {
         let triangle = packet.triangles.lane(lane);
         let (plane, facet) = (&packet.planes[lane], &self.facets[packet.polygons[lane] as usize]);
-        self.work += self.packets;
-        for (segments, shift) in self.segments[..self.packets].iter().zip((0..).step_by(8)) {
+        self.work += self.eights.len();
+        for (Eight { segments, .. }, shift) in self.eights.iter().zip((0..).step_by(8)) {
             let open = (self.open >> shift) as u32 & 0xff;
             if open == 0 {
                 continue;
@@ -274,7 +287,7 @@ impl<'a> Beam<'a> {
             let candidates = triangle.candidates(segments);
             let mut hidden = candidates.certain & open;
             for lane in bits(u64::from(candidates.possible & open & !hidden)) {
-                let [s, t] = self.ends[shift + lane];
+                let [s, t] = self.ends(shift + lane);
                 let cuts = plane.parts(s, t).is_some() && facet.cut(s, t).is_some();
                 hidden |= u32::from(cuts) << lane;
             }
@@ -344,7 +357,7 @@ impl Query for Beam<'_> {
             if all != 0 {
                 self.hidden |= self.open;
                 self.open = 0;
-            } else if inside.count_ones() <= met.count_ones() * self.packets as u32 {
+            } else if inside.count_ones() <= met.count_ones() * self.eights.len() as u32 {
                 self.meet_each(packet, inside);
             } else {
                 bits(u64::from(met)).for_each(|lane| self.meet_all(packet, lane));

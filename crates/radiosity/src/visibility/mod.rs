@@ -118,10 +118,10 @@ impl Visibility {
         clear.clear();
         clear.resize(segments.len(), true);
         let within = |k: usize| segments[k].map(|v| self.frame.point(v));
-        let mut alone = Vec::new();
-        for first in (0..segments.len()).step_by(MOST) {
-            let numbers = first..segments.len().min(first + MOST);
-            match Beam::new(&self.facets, numbers.clone().map(within)) {
+        let (mut alone, mut eights) = (Vec::new(), Vec::new());
+        for (segments, first) in segments.chunks(MOST).zip((0..).step_by(MOST)) {
+            let numbers = first..first + segments.len();
+            match Beam::new(&self.facets, &self.frame, segments, &mut eights) {
                 Some(mut beam) => {
                     self.occluders.walk(&mut beam);
                     for k in numbers {
@@ -143,11 +143,7 @@ impl Visibility {
 
     /// Whether no polygon at all cuts the open segment from s to t, wherever these are: beyond the walls too.
     pub fn is_clear(&self, s: DVec3, t: DVec3) -> bool {
-        self.is_clear_within(self.frame.point(s), self.frame.point(t))
-    }
-
-    /// The same of two points of the frame.
-    fn is_clear_within(&self, s: DVec3, t: DVec3) -> bool {
+        let (s, t) = (self.frame.point(s), self.frame.point(t));
         let Some(ray) = Ray::new(s, t) else { return true };
         let mut query = Blocker { facets: &self.facets, s, t, ray, found: None };
         self.occluders.walk(&mut query);
@@ -182,19 +178,21 @@ impl Visibility {
     /// How many of the rays from a point in unit directions meet nothing.
     fn escape(&self, origin: DVec3, directions: &[DVec3]) -> usize {
         let s = self.frame.point(origin);
-        let reach = s.length() + 1.0;
-        let end = |direction: &DVec3| s + reach * *direction;
-        let of_chunk = |directions: &[DVec3]| {
-            let mut beam = Beam::new(&self.facets, directions.iter().map(|direction| [s, end(direction)]));
+        let reach = self.frame.metres(s.length() + 1.0);
+        let segments: Vec<[DVec3; 2]> =
+            directions.iter().map(|direction| [origin, origin + reach * *direction]).collect();
+        let mut eights = Vec::new();
+        let mut of_chunk = |segments: &[[DVec3; 2]]| {
+            let mut beam = Beam::new(&self.facets, &self.frame, segments, &mut eights);
             if let Some(beam) = &mut beam {
                 self.occluders.walk(beam);
                 self.walls.walk(beam);
             }
             let together = |k: usize| beam.as_ref().and_then(|beam| beam.is_clear(k));
-            let alone = |k: usize| self.is_clear_within(s, end(&directions[k]));
-            (0..directions.len()).filter(|&k| together(k).unwrap_or_else(|| alone(k))).count()
+            let alone = |k: usize| self.is_clear(segments[k][0], segments[k][1]);
+            (0..segments.len()).filter(|&k| together(k).unwrap_or_else(|| alone(k))).count()
         };
-        directions.chunks(MOST).map(of_chunk).sum()
+        segments.chunks(MOST).map(&mut of_chunk).sum()
     }
 
     /// The first polygon, seen from either side, that a ray meets; `direction` is a unit vector.
