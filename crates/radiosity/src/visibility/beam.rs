@@ -173,12 +173,14 @@ impl<'a> Beam<'a> {
         })
     }
 
-    /// Whether nothing cuts a segment, once the tree has been walked; `None` where the segments have not enough in common for that
-    /// to be found together.
-    pub(super) fn is_clear(&self, k: usize) -> Option<bool> {
-        let hidden = self.hidden >> k & 1 == 1;
-        let open = self.open >> k & 1 == 1;
-        (hidden || !open || self.work <= self.patience).then_some(!hidden)
+    /// A bit for each segment that is cut, once the tree has been walked.
+    pub(super) fn hidden(&self) -> u64 {
+        self.hidden
+    }
+
+    /// A bit for each segment of which that is not known: they have not enough in common for it to be found together.
+    pub(super) fn unknown(&self) -> u64 {
+        if self.work <= self.patience { 0 } else { self.open }
     }
 
     /// Where a segment starts and where it ends.

@@ -34,7 +34,7 @@ use bvh::Bvh;
 pub(crate) use end::End;
 use facet::{Facet, Frame, ON_PLANE};
 use glam::DVec3;
-use ray::{Blocker, Nearest, Ray};
+use ray::{Blocker, Nearest, Ray, bits};
 use shaft::Shaft;
 use std::sync::OnceLock;
 
@@ -119,19 +119,15 @@ impl Visibility {
         clear.resize(segments.len(), true);
         let within = |k: usize| segments[k].map(|v| self.frame.point(v));
         let (mut alone, mut eights) = (Vec::new(), Vec::new());
-        for (segments, first) in segments.chunks(MOST).zip((0..).step_by(MOST)) {
-            let numbers = first..first + segments.len();
+        for (k, (segments, clear)) in segments.chunks(MOST).zip(clear.chunks_mut(MOST)).enumerate() {
             match Beam::new(&self.facets, &self.frame, segments, &mut eights) {
                 Some(mut beam) => {
                     self.occluders.walk(&mut beam);
-                    for k in numbers {
-                        match beam.is_clear(k - first) {
-                            Some(is_clear) => clear[k] = is_clear,
-                            None => alone.push(k),
-                        }
-                    }
+                    let hidden = beam.hidden();
+                    clear.iter_mut().zip(0..).for_each(|(clear, k)| *clear = hidden >> k & 1 == 0);
+                    alone.extend(bits(beam.unknown()).map(|lane| k * MOST + lane));
                 }
-                None => alone.extend(numbers),
+                None => alone.extend((0..segments.len()).map(|lane| k * MOST + lane)),
             }
         }
         let queries = alone.into_iter().filter_map(|k| {
@@ -183,14 +179,15 @@ impl Visibility {
             directions.iter().map(|direction| [origin, origin + reach * *direction]).collect();
         let mut eights = Vec::new();
         let mut of_chunk = |segments: &[[DVec3; 2]]| {
-            let mut beam = Beam::new(&self.facets, &self.frame, segments, &mut eights);
-            if let Some(beam) = &mut beam {
-                self.occluders.walk(beam);
-                self.walls.walk(beam);
-            }
-            let together = |k: usize| beam.as_ref().and_then(|beam| beam.is_clear(k));
-            let alone = |k: usize| self.is_clear(segments[k][0], segments[k][1]);
-            (0..segments.len()).filter(|&k| together(k).unwrap_or_else(|| alone(k))).count()
+            let clear_alone = |&k: &usize| self.is_clear(segments[k][0], segments[k][1]);
+            let Some(mut beam) = Beam::new(&self.facets, &self.frame, segments, &mut eights) else {
+                return (0..segments.len()).filter(clear_alone).count();
+            };
+            self.occluders.walk(&mut beam);
+            self.walls.walk(&mut beam);
+            let (hidden, unknown) = (beam.hidden(), beam.unknown());
+            let known_clear = segments.len() - (hidden | unknown).count_ones() as usize;
+            known_clear + bits(unknown).filter(clear_alone).count()
         };
         segments.chunks(MOST).map(&mut of_chunk).sum()
     }
