@@ -97,7 +97,7 @@ pub(super) struct Beam<'a> {
 const NARROW: f32 = 1.0;
 
 /// So many tests of eight a segment would take by itself, and little more.
-const ALONE: usize = 5;
+const ALONE: usize = 12;
 
 /// After so many nodes boxes are tried by each segment too: the beam is wide, or there is much in its way that is small.
 const WIDE: usize = 4;
