@@ -3,6 +3,7 @@
 use fredholm::operator::hierarchical::Cluster;
 use fredholm::value::Value;
 use std::ops::Range;
+use wide::f64x8;
 
 /// F_iC for the patches i of a cluster and the clusters C of its cut.
 #[derive(Clone, Copy, Debug)]
@@ -168,25 +169,25 @@ impl<'a> Block<'a> {
         channel: usize,
         sums: &mut [V],
     ) -> usize {
-        let mut tiles = [[[0.0_f64; LANES]; 2]; C];
+        let mut tiles = [[f64x8::ZERO; 2]; C];
         for (sender, column) in self.columns() {
             let mean = &means[sender.index()].channels()[channel..channel + C];
             let (Some(first), Some(last)) = (column.first_chunk::<LANES>(), column.last_chunk::<LANES>())
             else {
                 continue;
             };
-            let factors = [first, last].map(|factors| factors.map(f64::from));
+            let factors = [first, last].map(|factors| f64x8::new(factors.map(f64::from)));
             for (tiles, mean) in tiles.iter_mut().zip(mean) {
                 for (tile, factors) in tiles.iter_mut().zip(&factors) {
-                    tile.iter_mut().zip(factors).for_each(|(sum, factor)| *sum += mean * factor);
+                    *tile = factors.mul_add(f64x8::splat(*mean), *tile);
                 }
             }
         }
         for (c, [first, last]) in tiles.iter().enumerate() {
             let end = sums.len() - LANES;
-            let mut write = |from: usize, tile: &[f64; LANES]| {
-                let to = sums[from..].iter_mut().zip(tile);
-                to.for_each(|(value, sum)| value.channels_mut()[channel + c] = *sum);
+            let mut write = |from: usize, tile: &f64x8| {
+                let to = sums[from..].iter_mut().zip(tile.to_array());
+                to.for_each(|(value, sum)| value.channels_mut()[channel + c] = sum);
             };
             write(0, first);
             write(end, last);

@@ -7,80 +7,98 @@ use super::clusters::{Whole, up_to};
 use fredholm::operator::hierarchical::{Cluster, ClusterTree};
 use fredholm::value::Value;
 use rayon::prelude::*;
+use std::ops::Range;
 
-/// What the mean over a cluster is made of: nothing else of the tree is read on the way up.
+/// Two halves of a cluster: the first is numbered next to it.
 #[derive(Clone, Copy, Debug)]
-enum Mean {
-    /// A patch.
-    Of(u32),
-    /// Two halves, and the part of the area that the first has.
-    Between([u32; 2], f64),
+struct Pair {
+    cluster: u32,
+    second: u32,
+    /// The part of the area that the first half has.
+    part: f64,
+}
+
+/// A cluster and all below, which one thread goes up.
+#[derive(Debug)]
+struct Part {
+    clusters: Range<usize>,
+    pairs: Vec<Pair>,
 }
 
 /// The way up the tree.
 #[derive(Debug)]
 pub(super) struct Ascent {
-    means: Vec<Mean>,
-    /// The first and the last number of clusters that are gone up by one thread each.
-    parts: Vec<(usize, usize)>,
+    /// The patch that each cluster is, or [`SEVERAL`].
+    patches: Vec<u32>,
+    parts: Vec<Part>,
+    /// What is above the parts.
+    top: Vec<Pair>,
 }
+
+/// No patch has this number.
+const SEVERAL: u32 = u32::MAX;
 
 /// Patches of the largest clusters that one thread goes up.
 const TOGETHER: usize = 1024;
 
 impl Ascent {
     pub fn new(tree: &ClusterTree<6>, wholes: &[Whole]) -> Self {
-        let mean = |cluster: Cluster| match tree.children(cluster) {
-            None => Mean::Of(tree.members(cluster)[0] as u32),
-            Some([a, b]) => {
-                let part = wholes[a.index()].area / wholes[cluster.index()].area;
-                Mean::Between([a, b].map(|half| half.index() as u32), part)
-            }
+        let halves = |cluster: Cluster| {
+            tree.children(cluster).map(|[a, b]| Pair {
+                cluster: cluster.index() as u32,
+                second: b.index() as u32,
+                part: wholes[a.index()].area / wholes[cluster.index()].area,
+            })
         };
-        // A cluster's halves and theirs are numbered next to it: the last of them is found going down the second halves.
+        let clusters: Vec<Cluster> = tree.top_down().collect();
+        let patch = |cluster: &Cluster| match tree.children(*cluster) {
+            None => tree.members(*cluster)[0] as u32,
+            Some(_) => SEVERAL,
+        };
+        // Those below a cluster are numbered next to it: the last of them is found going down the second halves.
         let last = |cluster: Cluster| {
             std::iter::successors(Some(cluster), |at| tree.children(*at).map(|[_, b]| b))
                 .last()
                 .unwrap_or(cluster)
         };
-        let parts = up_to(tree, TOGETHER).into_iter().map(|part| (part.index(), last(part).index()));
-        Self { means: tree.top_down().map(mean).collect(), parts: parts.collect() }
+        let part = |cluster: Cluster| {
+            let below = cluster.index()..last(cluster).index() + 1;
+            Part {
+                pairs: clusters[below.clone()].iter().copied().filter_map(halves).collect(),
+                clusters: below,
+            }
+        };
+        let is_above = |cluster: &Cluster| tree.range(*cluster).len() > TOGETHER;
+        Self {
+            patches: clusters.iter().map(patch).collect(),
+            parts: up_to(tree, TOGETHER).into_iter().map(part).collect(),
+            top: clusters.iter().copied().filter(is_above).filter_map(halves).collect(),
+        }
     }
 
     /// The mean over each cluster of what is given by patch, weighted by area.
     pub fn means<V: Value>(&self, values: &[V]) -> Vec<V> {
-        let mut means = vec![V::splat(0.0); self.means.len()];
-        let mut rest = &mut means[..];
-        let mut begin = 0;
+        let patches = self.patches.par_iter().with_min_len(TOGETHER);
+        let value = |patch: &u32| values.get(*patch as usize).copied().unwrap_or(V::splat(0.0));
+        let mut means: Vec<V> = patches.map(value).collect();
+        let (mut rest, mut begin) = (&mut means[..], 0);
         let mut parts = Vec::with_capacity(self.parts.len());
-        for (first, last) in &self.parts {
-            let (part, after) = rest.split_at_mut(last + 1 - begin);
-            parts.push((*first, &mut part[first - begin..]));
-            (rest, begin) = (after, last + 1);
+        for Part { clusters, pairs } in &self.parts {
+            let (part, after) = rest.split_at_mut(clusters.end - begin);
+            parts.push((&mut part[clusters.start - begin..], clusters.start, pairs));
+            (rest, begin) = (after, clusters.end);
         }
-        parts.into_par_iter().for_each(|(first, part)| {
-            for k in (0..part.len()).rev() {
-                part[k] = self.mean(first + k, values, |half| part[half - first]);
-            }
-        });
-        let mut next = self.parts.iter().rev().peekable();
-        let mut k = self.means.len();
-        while k > 0 {
-            k -= 1;
-            if let Some((first, _)) = next.next_if(|(_, last)| *last == k) {
-                k = *first;
-            } else {
-                means[k] = self.mean(k, values, |half| means[half]);
-            }
-        }
+        parts.into_par_iter().for_each(|(means, first, pairs)| rise(means, first, pairs));
+        rise(&mut means, 0, &self.top);
         means
     }
+}
 
-    fn mean<V: Value>(&self, cluster: usize, values: &[V], of: impl Fn(usize) -> V) -> V {
-        match self.means[cluster] {
-            Mean::Of(patch) => values[patch as usize],
-            Mean::Between([a, b], part) => of(a as usize) * part + of(b as usize) * (1.0 - part),
-        }
+/// The means over clusters, from those over their halves; the first of the slice has the number `first`.
+fn rise<V: Value>(means: &mut [V], first: usize, pairs: &[Pair]) {
+    for Pair { cluster, second, part } in pairs.iter().rev() {
+        let (cluster, second) = (*cluster as usize - first, *second as usize - first);
+        means[cluster] = means[cluster + 1] * *part + means[second] * (1.0 - *part);
     }
 }
 

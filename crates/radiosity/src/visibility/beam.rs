@@ -260,8 +260,12 @@ impl<'a> Beam<'a> {
             }
             u64::from(enters.simd_le(leaves).to_bitmask())
         };
-        let found =
-            self.eights.iter().map(|eight| of_eight(&eight.slabs)).rev().fold(0, |bits, eight| bits << 8 | eight);
+        let found = self
+            .eights
+            .iter()
+            .map(|eight| of_eight(&eight.slabs))
+            .rev()
+            .fold(0, |bits, eight| bits << 8 | eight);
         found & self.open
     }
 
