@@ -1,11 +1,11 @@
 //! y += M x and s += Mᵀ u for a matrix M of m rows and k columns in *tiles*: sixteen rows at a time, and of these column after
 //! column, so that memory is read from one end to the other while sixteen sums stay in registers.
 
-use crate::operator::{Entry, Line};
+use crate::operator::Entry;
 use crate::value::Value;
-use wide::f64x4;
+use wide::f64x8;
 
-/// Rows of a tile; the last one has what is left. Four vectors of sums hide the latency of an addition.
+/// Rows of a tile, two vectors of sums; the last one has what is left.
 const TILE: usize = 16;
 
 /// The numbers of a matrix given column after column, in tiles.
@@ -32,85 +32,89 @@ pub(super) fn column<T>(numbers: &[T], l: usize, (m, k): (usize, usize)) -> impl
     })
 }
 
+/// A column of a tile, in two parts that are a vector each.
+type Column<T> = [[T; TILE / 2]; 2];
+
+/// All whole columns of numbers.
+fn columns<T>(numbers: &[T]) -> &[Column<T>] {
+    numbers.as_chunks().0.as_chunks().0
+}
+
+/// In vector registers, in double precision.
+#[inline(always)]
+fn lanes<T: Entry>(column: &Column<T>) -> [f64x8; 2] {
+    column.map(|numbers| f64x8::new(numbers.map(Into::into)))
+}
+
 /// `image` += M x.
 pub(super) fn spread<V: Value, T: Entry>(numbers: &[T], x: &[V], image: &mut [V]) {
     if x.is_empty() {
         return;
     }
+    let (mut numbers, mut image) = (numbers, image);
+    if let Some(x) = V::numbers(x) {
+        let (tiles, rest) = numbers.split_at(image.len() / TILE * TILE * x.len());
+        let (whole, last) = std::mem::take(&mut image).split_at_mut(tiles.len() / x.len());
+        let values = V::numbers_mut(whole).unwrap_or_default();
+        let values = values.as_chunks_mut().0.as_chunks_mut().0;
+        columns(tiles)
+            .chunks_exact(x.len())
+            .zip(values)
+            .for_each(|(tile, values)| spread_tile(tile, x, values));
+        (numbers, image) = (rest, last);
+    }
     for (tile, image) in numbers.chunks(TILE * x.len()).zip(image.chunks_mut(TILE)) {
-        match (V::numbers(x), V::numbers_mut(image).and_then(|image| image.try_into().ok())) {
-            (Some(x), Some::<&mut [f64; TILE]>(image)) => {
-                by_columns(tile, |first, columns| spread_tile(columns, &x[first..], &mut *image));
-            }
-            _ => {
-                for (column, x) in tile.chunks_exact(image.len()).zip(x) {
-                    image.iter_mut().zip(column).for_each(|(value, number)| *value += *x * (*number).into());
-                }
-            }
+        for (column, x) in tile.chunks_exact(image.len()).zip(x) {
+            image.iter_mut().zip(column).for_each(|(value, number)| *value += *x * (*number).into());
         }
     }
+}
+
+fn spread_tile<T: Entry>(tile: &[Column<T>], x: &[f64], values: &mut Column<f64>) {
+    let [mut first, mut second] = lanes(values);
+    for (column, x) in tile.iter().zip(x) {
+        let ([a, b], x) = (lanes(column), f64x8::splat(*x));
+        first = a.mul_add(x, first);
+        second = b.mul_add(x, second);
+    }
+    *values = [first.to_array(), second.to_array()];
 }
 
 /// `sums` += Mᵀ u.
 pub(super) fn gather<V: Value, T: Entry>(numbers: &[T], u: &[V], sums: &mut [V]) {
-    if sums.is_empty() {
+    let k = sums.len();
+    if k == 0 {
         return;
     }
-    for (tile, u) in numbers.chunks(TILE * sums.len()).zip(u.chunks(TILE)) {
-        match (V::numbers(u).and_then(|u| u.try_into().ok()), V::numbers_mut(sums)) {
-            (Some(u), Some(sums)) => {
-                by_columns(tile, |first, columns| gather_tile(columns, u, &mut sums[first..]));
-            }
-            _ => {
-                for (column, sum) in tile.chunks_exact(u.len()).zip(&mut *sums) {
-                    column.iter().zip(u).for_each(|(number, u)| *sum += *u * (*number).into());
-                }
-            }
+    let (mut numbers, mut u) = (numbers, u);
+    if let (Some(values), Some(sums)) = (V::numbers(u), V::numbers_mut(sums)) {
+        let values = columns(values);
+        let (tiles, rest) = numbers.split_at(values.len() * TILE * k);
+        gather_tiles(columns(tiles), values, sums);
+        (numbers, u) = (rest, &u[values.len() * TILE..]);
+    }
+    for (tile, u) in numbers.chunks(TILE * k).zip(u.chunks(TILE)) {
+        for (column, sum) in tile.chunks_exact(u.len()).zip(&mut *sums) {
+            column.iter().zip(u).for_each(|(number, u)| *sum += *u * (*number).into());
         }
     }
 }
 
-/// Columns of a tile that are brought to double precision at once.
+/// Columns whose sums are kept in vectors until the last tile.
 const SOME: usize = 8;
 
-/// Calls `act` with the number of the first column and the columns from there on, all of a tile or some.
-fn by_columns<T: Entry>(tile: &[T], mut act: impl FnMut(usize, &[[f64; TILE]])) {
-    match T::line(tile) {
-        Line::Full(numbers) => act(0, numbers.as_chunks().0),
-        Line::Packed(numbers) => {
-            let mut buffer = [0.0; SOME * TILE];
-            for (k, numbers) in numbers.chunks(SOME * TILE).enumerate() {
-                let columns = &mut buffer[..numbers.len()];
-                columns.iter_mut().zip(numbers).for_each(|(wide, number)| *wide = f64::from(*number));
-                act(SOME * k, columns.as_chunks().0);
+fn gather_tiles<T: Entry>(tiles: &[Column<T>], u: &[Column<f64>], sums: &mut [f64]) {
+    let k = sums.len();
+    for (sums, first) in sums.chunks_mut(SOME).zip((0..).step_by(SOME)) {
+        let mut partial = [f64x8::ZERO; SOME];
+        for (tile, u) in tiles.chunks_exact(k).zip(u) {
+            let [u, v] = lanes(u);
+            for (column, sum) in tile[first..].iter().zip(&mut partial[..sums.len()]) {
+                let [a, b] = lanes(column);
+                *sum = a.mul_add(u, b.mul_add(v, *sum));
             }
         }
-    }
-}
-
-/// Sixteen numbers in vector registers.
-type Lanes = [f64x4; TILE / 4];
-
-fn lanes(numbers: &[f64; TILE]) -> Lanes {
-    std::array::from_fn(|k| {
-        f64x4::new([numbers[4 * k], numbers[4 * k + 1], numbers[4 * k + 2], numbers[4 * k + 3]])
-    })
-}
-
-fn spread_tile(columns: &[[f64; TILE]], x: &[f64], image: &mut [f64; TILE]) {
-    let mut sums = lanes(image);
-    for (column, x) in columns.iter().zip(x) {
-        let (column, x) = (lanes(column), f64x4::splat(*x));
-        sums.iter_mut().zip(column).for_each(|(sum, numbers)| *sum += numbers * x);
-    }
-    image.as_chunks_mut().0.iter_mut().zip(sums).for_each(|(values, sum)| *values = sum.to_array());
-}
-
-fn gather_tile(columns: &[[f64; TILE]], u: &[f64; TILE], sums: &mut [f64]) {
-    let u = lanes(u);
-    for (column, sum) in columns.iter().zip(sums) {
-        let [a, b, c, d] = lanes(column);
-        *sum += ((a * u[0] + b * u[1]) + (c * u[2] + d * u[3])).reduce_add();
+        sums.iter_mut().zip(partial).for_each(|(sum, partial)| *sum += partial.reduce_add());
     }
 }
 
