@@ -175,6 +175,27 @@ fn what_cannot_be_met_is_told() {
 }
 
 #[test]
+fn what_takes_more_unknowns_than_are_allowed_is_told() {
+    let folder = folder("solve_unknowns");
+    let words = ["--kernel", "cos(100*x*y)", "--source", "cos(30*x)"];
+    let few = [&words[..], &["--unknowns", "64"]].concat();
+    let output = solve(&folder, &few);
+    assert_eq!(output.status.code(), Some(3));
+    assert!(text(&output.stdout).contains("allow more than 64 --unknowns"), "{}", text(&output.stdout));
+    assert!(report(&folder, &few).0["n"].as_u64().unwrap() <= 64);
+    std::fs::write(
+        folder.join("enough.toml"),
+        "kernel = \"cos(100*x*y)\"\nsource = \"cos(30*x)\"\nunknowns = 500\n",
+    )
+    .unwrap();
+    let (enough, _) = report(&folder, &["enough.toml"]);
+    assert_eq!(enough["status"], "converged", "{enough}");
+    assert!(enough["n"].as_u64().unwrap() > 64, "{enough}");
+    let output = solve(&folder, &[&few[..], &["--method", "nystrom", "--n", "4"]].concat());
+    assert_eq!(output.status.code(), Some(1));
+}
+
+#[test]
 fn fredholms_alternative_is_told() {
     let folder = folder("solve_alternative");
     let kernel = ["--kernel", "4*x*y^2", "--at", "0,0.5,1"];

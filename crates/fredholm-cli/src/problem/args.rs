@@ -77,7 +77,7 @@ A problem file, of which only kernel and source must be there:
   exact = \"exp(-x)\"                    # if it is known
   interval = [0, \"2*pi\"]               # or domain = \"disk 0 0 1\"
   parameters = { c = 0.1 }
-  tolerance = 1e-12                    # class, method, space, rule, n, at and general as well
+  tolerance = 1e-12                    # class, method, space, rule, n, unknowns, at and general as well
 
 A system φ_a = f_a + Σ_b ∫ K_ab φ_b has kernels = [[\"…\", \"…\"], [\"…\", \"…\"]], sources = [\"…\", \"…\"] and
 exact = [\"…\", \"…\"] instead.";

@@ -36,6 +36,8 @@ pub struct ProblemFile {
     pub rule: Option<Said>,
     /// Its size.
     pub n: Option<usize>,
+    /// The most unknowns.
+    pub unknowns: Option<usize>,
     /// Where the solution is wanted.
     pub at: Option<Said>,
     /// Whether one solution of many is an answer.
@@ -72,6 +74,7 @@ struct Entries {
     space: Option<Spanned<String>>,
     rule: Option<Spanned<String>>,
     n: Option<Spanned<usize>>,
+    unknowns: Option<Spanned<usize>>,
     at: Option<Spanned<String>>,
     #[serde(default)]
     general: bool,
@@ -129,7 +132,8 @@ impl Entries {
             method: said("method", &self.method),
             space: said("space", &self.space),
             rule: said("rule", &self.rule),
-            n: self.n.as_ref().map(|n| source.at_least_one(n)).transpose()?,
+            n: self.n.as_ref().map(|n| source.at_least_one("n", n)).transpose()?,
+            unknowns: self.unknowns.as_ref().map(|n| source.at_least_one("unknowns", n)).transpose()?,
             at: said("at", &self.at),
             general: self.general,
         })
@@ -198,9 +202,9 @@ impl Source<'_> {
         bail!("{}: tolerance: {value} is not a positive finite number", self.place(&tolerance.span()));
     }
 
-    fn at_least_one(&self, n: &Spanned<usize>) -> Result<usize> {
+    fn at_least_one(&self, key: &str, n: &Spanned<usize>) -> Result<usize> {
         match *n.get_ref() {
-            0 => bail!("{}: n: give a whole number, 1 or more", self.place(&n.span())),
+            0 => bail!("{}: {key}: give a whole number, 1 or more", self.place(&n.span())),
             n => Ok(n),
         }
     }

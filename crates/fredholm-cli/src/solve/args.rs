@@ -64,6 +64,11 @@ pub struct Solve {
     #[arg(long, value_name = "N", value_parser = at_least_one, help_heading = "Method")]
     pub n: Option<usize>,
 
+    /// The most unknowns where the program finds how many it takes [default: 3000]; time goes with their cube, memory with
+    /// their square
+    #[arg(long, value_name = "N", value_parser = at_least_one, help_heading = "Method")]
+    pub unknowns: Option<usize>,
+
     /// Take one solution of many for an answer: φ plus any combination of the null functions
     #[arg(long, help_heading = "Method")]
     pub general: bool,

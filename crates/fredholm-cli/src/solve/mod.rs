@@ -27,7 +27,7 @@ pub fn command(args: &Solve) -> Result<Ending> {
     clear_on_interrupt()?;
     let statement = Statement::new(&args.problem, Some(&args.source))?;
     let problem = Problem::new(&statement)?;
-    let settings = Settings::new(args, &statement.file, &problem.domain)?;
+    let settings = Settings::new(args, &statement.file, &problem)?;
     let at = args.at.as_ref().map(|at| Said::option("at", at)).or_else(|| statement.file.at.clone());
     let run = Run { args, statement, problem: &problem, settings, at };
     match (problem.domain, problem.is_complex()) {
@@ -55,7 +55,7 @@ impl Run<'_> {
         let start = Instant::now();
         let answer = self.settings.on_line(&equation)?;
         let seconds = start.elapsed().as_secs_f64();
-        let report = Report::new(self.problem, &answer, points.clone(), self.settings.tolerance, seconds);
+        let report = Report::new(self.problem, &answer, points.clone(), &self.settings, seconds);
         let asked = self.at.as_ref().map(|_| points.as_slice());
         let window = picture::window(interval, asked);
         let draw = || Ok(picture::on_line(&self.problem.title, &equation, &answer.solution, window)?);
@@ -69,7 +69,7 @@ impl Run<'_> {
         let start = Instant::now();
         let answer = self.settings.in_plane(&equation)?;
         let seconds = start.elapsed().as_secs_f64();
-        let report = Report::new(self.problem, &answer, points, self.settings.tolerance, seconds);
+        let report = Report::new(self.problem, &answer, points, &self.settings, seconds);
         let draw = || Ok(picture::in_plane(&self.problem.title, domain, &answer.solution));
         self.finish(report, outputs, draw)
     }

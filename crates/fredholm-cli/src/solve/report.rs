@@ -1,6 +1,7 @@
 //! The answer at the points asked for: what `--json` writes and the table shows.
 
 use super::class;
+use super::settings::Settings;
 use crate::problem::{FormulaValue, Number, Points, Problem};
 use fredholm::equation::{Alternative, Answer, Function, Status};
 use serde::Serialize;
@@ -19,6 +20,9 @@ pub struct Report {
     pub class: Option<String>,
     /// How many numbers were solved for.
     pub n: usize,
+    /// The most that were allowed, where the program finds how many it takes.
+    #[serde(skip)]
+    pub most_unknowns: Option<usize>,
     /// The greatest error wanted, as a part of max |φ|.
     pub tolerance: f64,
     /// The estimate of max |φ − exact|.
@@ -110,7 +114,7 @@ impl Report {
         problem: &Problem,
         answer: &Answer<'_, P, T>,
         points: Vec<P>,
-        tolerance: f64,
+        settings: &Settings,
         seconds: f64,
     ) -> Self
     where
@@ -136,7 +140,8 @@ impl Report {
             method: answer.method.clone(),
             class: answer.class.map(class::name),
             n: answer.unknowns,
-            tolerance,
+            most_unknowns: settings.unknowns,
+            tolerance: settings.tolerance,
             error_estimate: answer.error_estimate,
             true_error: comparable.then(|| true_error::<T>(problem, &x, &phi)),
             condition: answer.condition,

@@ -2,10 +2,11 @@
 
 use super::args::Solve;
 use super::class::ClassName;
-use crate::problem::{Domain, FormulaValue, ProblemFile, Said};
+use crate::problem::{Domain, FormulaValue, Problem, ProblemFile, Said};
 use anyhow::{Result, bail};
 use fredholm::automatic;
 use fredholm::equation::{Answer, Class, Equation, EquationError};
+use fredholm::memory;
 use fredholm::methods::{self, Method, RuleKind, Setup};
 use fredholm::plane::{self, PlaneEquation};
 use fredholm::space::SpaceKind;
@@ -14,6 +15,12 @@ use std::str::FromStr;
 
 /// The greatest error wanted, when nobody says.
 const TOLERANCE: f64 = 1e-10;
+
+/// The most unknowns, when nobody says: some seconds.
+const UNKNOWNS: usize = 3000;
+
+/// Bytes at the peak for each entry of the matrix of real numbers, measured; complex ones take twice as many.
+const BYTES: u64 = 56;
 
 /// What was decided.
 #[derive(Clone, Debug)]
@@ -26,14 +33,18 @@ pub struct Settings {
     /// A method by name; none to leave it to the program.
     method: Option<Setup>,
     n: Option<usize>,
+    /// The most unknowns; none for a method by name, which has n, or grows by its own measure.
+    pub unknowns: Option<usize>,
 }
 
 impl Settings {
     /// What the command line and the file say together.
-    pub fn new(args: &Solve, file: &ProblemFile, domain: &Domain) -> Result<Self> {
+    pub fn new(args: &Solve, file: &ProblemFile, problem: &Problem) -> Result<Self> {
+        let domain = &problem.domain;
         let tolerance = args.tolerance.or(file.tolerance).unwrap_or(TOLERANCE);
         let class = either(args.class, file.class.as_ref())?.map(|ClassName(class)| class);
         let n = args.n.or(file.n);
+        let unknowns = args.unknowns.or(file.unknowns);
         let method = either(args.method, file.method.as_ref())?;
         let space = either(args.space, file.space.as_ref())?;
         let rule = either(args.rule, file.rule.as_ref())?;
@@ -49,11 +60,19 @@ impl Settings {
             (Domain::Line(_), None) if space.is_some() || rule.is_some() || n.is_some() => {
                 bail!("space, rule and n belong to a method; name it with --method");
             }
+            (Domain::Line(_), Some(method)) if unknowns.is_some() => {
+                bail!(
+                    "{method} has --n; --unknowns is for equations that are solved without a method's name"
+                );
+            }
             _ => {}
         }
+        let by_itself = matches!(domain, Domain::Plane(_)) || method.is_none();
+        let unknowns = by_itself.then_some(unknowns.unwrap_or(UNKNOWNS));
+        unknowns.map_or(Ok(()), |unknowns| check_memory(unknowns, problem.is_complex()))?;
         let setup = |method| setup(method, space, rule, n, tolerance);
         let method = method.map(setup).transpose()?;
-        Ok(Self { tolerance, general: args.general || file.general, class, method, n })
+        Ok(Self { tolerance, general: args.general || file.general, class, method, n, unknowns })
     }
 
     /// Solves an equation on an interval.
@@ -68,7 +87,8 @@ impl Settings {
     }
 
     fn automatic(&self) -> automatic::Options {
-        automatic::Options { tolerance: self.tolerance, class: self.class, ..automatic::Options::default() }
+        let Self { tolerance, class, unknowns, .. } = *self;
+        automatic::Options { tolerance, class, unknowns: unknowns.unwrap_or(UNKNOWNS) }
     }
 
     /// Solves an equation in the plane.
@@ -76,9 +96,24 @@ impl Settings {
         &self,
         equation: &'e PlaneEquation<'_, T>,
     ) -> Result<Answer<'e, [f64; 2], T>, EquationError> {
-        let options = plane::Options { tolerance: self.tolerance, n: self.n, ..plane::Options::default() };
-        plane::solve(equation, &options)
+        let Self { tolerance, n, unknowns, .. } = *self;
+        plane::solve(equation, &plane::Options { tolerance, n, unknowns: unknowns.unwrap_or(UNKNOWNS) })
     }
+}
+
+/// Whether matrices of so many unknowns fit.
+fn check_memory(unknowns: usize, complex: bool) -> Result<()> {
+    let bytes = if complex { 2 * BYTES } else { BYTES };
+    let (needed, free) = ((unknowns as u64).saturating_pow(2).saturating_mul(bytes), memory::limit());
+    if needed > free {
+        bail!(
+            "{unknowns} unknowns may take {} MB, and {} MB are free: allow {} --unknowns at most",
+            needed >> 20,
+            free >> 20,
+            (free / bytes).isqrt()
+        );
+    }
+    Ok(())
 }
 
 /// The command line's choice, or the file's.

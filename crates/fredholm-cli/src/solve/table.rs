@@ -30,7 +30,11 @@ fn status(report: &Report) -> String {
     match report.status {
         "converged" => "converged".to_owned(),
         "tolerance-not-met" => {
-            "TOLERANCE NOT MET: this is the best that was found; ask for a larger --tolerance".to_owned()
+            // A next attempt has no more than twice as many.
+            let limit = report.most_unknowns.filter(|most| 2 * report.n > *most);
+            let more =
+                limit.map_or_else(String::new, |most| format!("allow more than {most} --unknowns, or "));
+            format!("TOLERANCE NOT MET: this is the best that was found; {more}ask for a larger --tolerance")
         }
         "no-solution" => {
             "NO SOLUTION: f is not orthogonal to the null space of the adjoint of I − A".to_owned()

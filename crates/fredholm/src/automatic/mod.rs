@@ -28,12 +28,13 @@ pub struct Options {
     pub tolerance: f64,
     /// The kernel's class, if it is known; otherwise it is found.
     pub class: Option<Class>,
-    /// The most unknowns. Memory is 26 bytes times their square, and time grows with their cube.
+    /// The most unknowns. Memory is 56 bytes times their square, twice as many for complex numbers, and time grows with
+    /// their cube.
     pub unknowns: usize,
 }
 
 impl Default for Options {
-    /// An error of 10⁻¹⁰, any class, and up to 3000 unknowns: some seconds and 240 MB.
+    /// An error of 10⁻¹⁰, any class, and up to 3000 unknowns: some seconds and 500 MB.
     fn default() -> Self {
         Self { tolerance: 1e-10, class: None, unknowns: 3000 }
     }
