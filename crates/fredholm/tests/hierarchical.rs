@@ -127,6 +127,18 @@ fn errors_are_as_small_as_asked_and_told_on_a_line() {
 }
 
 #[test]
+fn units_may_be_as_large_or_small_as_they_like() {
+    for unit in [1e-60, 1e-35, 1e45, 1e60] {
+        let kernel = radial(f64::ln);
+        let points = of(line(N), move |x: &[f64; 1], y: &[f64; 1]| unit * kernel(x, y));
+        for tolerance in [1e-2, 1e-5] {
+            let (error, norm) = is_honest("scaled logarithm", &points, tolerance);
+            assert!(error <= tolerance * norm, "{unit}, {tolerance}: {error} of {norm}");
+        }
+    }
+}
+
+#[test]
 fn errors_are_as_small_as_asked_and_told_in_the_plane_and_on_a_sphere() {
     is_as_asked("plane, logarithm", &of(square(N), radial(f64::ln)));
     is_as_asked("plane, 1/r", &of(square(N), radial(|r| 1.0 / r)));

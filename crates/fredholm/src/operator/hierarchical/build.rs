@@ -69,7 +69,8 @@ impl<C: Coupling, const D: usize> Builder<'_, C, D> {
             self.entries.row(i, columns.clone(), &mut row)?;
             row.iter().enumerate().for_each(|(l, entry)| numbers[l * m + k] = *entry);
         }
-        let full = if dense_in_full(self.tolerance) { n } else { 0 };
+        let largest = numbers.iter().fold(0.0, |largest: f64, entry| largest.max(entry.abs()));
+        let full = if dense_in_full(self.tolerance) || !SINGLE.contains(&largest) { n } else { 0 };
         Ok(Made { rows, columns, content: Content::Dense(numbers), full })
     }
 }
@@ -86,6 +87,9 @@ pub(super) fn compressed<C: Coupling>(
     let decomposed = |cross: Cross| Singular::of(&cross, m, n, SHARES[1] * tolerance);
     Ok(approximation.cross()?.and_then(decomposed))
 }
+
+/// Blocks whose largest entry is in here keep their digits in single precision, which has no numbers far beyond.
+const SINGLE: Range<f64> = 1e-30..1e38;
 
 /// How many of the pairs p_l, q_l need double precision: the others lose less than their share of the tolerance.
 pub(super) fn in_full(values: &[f64], tolerance: f64) -> usize {

@@ -95,8 +95,8 @@ struct Parts {
 }
 
 impl Hierarchical {
-    fn new<C: Coupling>(parts: Parts, entries: &Entries<'_, C>, tolerance: f64) -> Result<Self, NotFinite> {
-        let statistics = statistics::statistics(&parts, entries, tolerance)?;
+    fn new<C: Coupling>(parts: Parts, entries: &Entries<'_, C>) -> Result<Self, NotFinite> {
+        let statistics = statistics::statistics(&parts, entries)?;
         let Parts { order, strips, shelves, large } = parts;
         let mut place = vec![0; order.len()];
         order.iter().enumerate().for_each(|(k, number)| place[*number] = k);

@@ -93,7 +93,6 @@ impl<'a, C: Coupling, const D: usize> Plan<'a, C, D> {
             for pair in &small[strip] {
                 build(&self.pairs[*pair])?.into_iter().for_each(|made| shelf.push(made));
             }
-            shelf.close();
             Ok(shelf)
         })?;
         let mut blocks = Vec::new();
@@ -103,8 +102,9 @@ impl<'a, C: Coupling, const D: usize> Plan<'a, C, D> {
                 Kept::Small(made) => shelves[strips.of(made.rows.start)].push(made),
             }
         }
+        shelves.iter_mut().for_each(Shelf::close);
         let parts = Parts { order: self.tree.order().to_vec(), strips, shelves, large: blocks };
-        Ok(Hierarchical::new(parts, &entries, self.options.tolerance)?)
+        Ok(Hierarchical::new(parts, &entries)?)
     }
 
     /// The numbers of the pairs of one strip of rows and one of columns, by strips of rows; and of the others, from the largest.

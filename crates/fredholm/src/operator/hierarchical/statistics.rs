@@ -3,7 +3,6 @@
 
 use super::Parts;
 use super::block::{Kept, Small};
-use super::build::dense_in_full;
 use super::entries::{Entries, chosen};
 use super::large::Large;
 use super::strips::Strips;
@@ -71,9 +70,8 @@ struct Part {
 pub(super) fn statistics<C: Coupling>(
     parts: &Parts,
     entries: &Entries<'_, C>,
-    tolerance: f64,
 ) -> Result<Statistics, NotFinite> {
-    let looks = Looks { entries, strips: &parts.strips, tolerance };
+    let looks = Looks { entries, strips: &parts.strips };
     let small = parts.shelves.par_iter().enumerate().with_max_len(1).map(|(strip, shelf)| {
         let blocks = shelf.blocks().enumerate();
         blocks
@@ -102,7 +100,6 @@ pub(super) fn statistics<C: Coupling>(
 struct Looks<'a, C> {
     entries: &'a Entries<'a, C>,
     strips: &'a Strips,
-    tolerance: f64,
 }
 
 impl<C: Coupling> Looks<'_, C> {
@@ -117,8 +114,7 @@ impl<C: Coupling> Looks<'_, C> {
             Kept::Dense(entries) => {
                 let norm2 = entries.norm2();
                 // Entries are kept, or rounded to within half a unit of the last place.
-                let rounding =
-                    if dense_in_full(self.tolerance) { 0.0 } else { f64::from(f32::EPSILON) / 2.0 };
+                let rounding = if entries.packed.is_empty() { 0.0 } else { f64::from(f32::EPSILON) / 2.0 };
                 Ok(Part { error2: rounding * rounding * norm2, variance: 0.0, norm2, rank: None })
             }
         }
