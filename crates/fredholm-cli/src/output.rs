@@ -99,12 +99,20 @@ pub fn clear_on_interrupt() -> Result<()> {
 pub fn stop_on_interrupt() -> Result<&'static AtomicBool> {
     static STOPPED: AtomicBool = AtomicBool::new(false);
     let stop = || {
-        if STOPPED.swap(true, Ordering::Relaxed) {
+        if STOPPED.swap(true, Ordering::Relaxed) || ENDS.load(Ordering::Relaxed) {
             clear();
         }
     };
     ctrlc::set_handler(stop).context("cannot listen for interrupts")?;
     Ok(&STOPPED)
+}
+
+/// Whether even the first interrupt ends the program.
+static ENDS: AtomicBool = AtomicBool::new(false);
+
+/// Lets the next interrupt end the program, where there is nothing left to be kept.
+pub fn end_on_interrupt() {
+    ENDS.store(true, Ordering::Relaxed);
 }
 
 fn clear() {

@@ -65,7 +65,7 @@ const OUTPUTS: &[Case] = &[
 const NUMBERS: &[Case] = &[
     ("--patch-size nan", 2, &["positive finite number"]),
     ("--patch-size 0", 2, &["positive finite number"]),
-    ("--patch-size 1e-9 --frames f", 1, &["patches", "give a larger one"]),
+    ("--patch-size 1e-9 --frames f", 1, &["patches", "take larger ones"]),
     ("--patch-size 0.002 --operator dense --frames f", 1, &["MB are free", "hierarchical"]),
     ("--patch-size 1 --patch-count 5", 2, &["cannot be used with"]),
     ("--patch-count 0", 2, &["1 or more"]),

@@ -25,7 +25,7 @@ fn links_and_their_error_are_told() {
     assert!((0.001..0.03).contains(&links["error"].as_f64().unwrap()), "{links}");
     let (bytes, planned) = (links["bytes"].as_f64().unwrap(), links["planned_bytes"].as_f64().unwrap());
     assert!(bytes > 0.5 * planned && bytes < 1.5 * planned, "{links}");
-    for line in ["links", "clusters", "of the light in the mean square"] {
+    for line in ["links", "clusters", "of the light that surfaces reflect"] {
         assert!(text(&output.stderr).contains(line), "no `{line}` in: {}", text(&output.stderr));
     }
     let drawn = folder.join("who.svg");

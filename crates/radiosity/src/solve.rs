@@ -122,13 +122,13 @@ pub enum SolveError {
     },
     /// The links would not fit.
     #[error(
-        "links between {patches} patches take about {} MB, and {} MB are free: take larger patches, or allow a larger --factor-accuracy",
+        "clusters of {patches} patches and their links take about {} MB, and {} MB are free: take larger patches, or allow a larger --factor-accuracy, up to 3e-3",
         needed >> 20, available >> 20
     )]
     Links {
         /// The number of patches.
         patches: usize,
-        /// Bytes of the links, about.
+        /// Bytes of clusters and links, about.
         needed: u64,
         /// Bytes that they may take.
         available: u64,

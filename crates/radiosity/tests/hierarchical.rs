@@ -6,7 +6,7 @@ use fredholm::operator::{Columns, Gather, Line, Matrix, Operator, Rows, Shoot, T
 use fredholm::relax::{GaussSeidel, Outcome, Relaxation, Southwell, Stop, relax};
 use fredholm::system::System;
 use fredholm::value::{Rgb, Value, max_norm};
-use radiosity::hierarchical::{Hierarchical, Light, Plan};
+use radiosity::hierarchical::{Hierarchical, Kept, Light, Plan, clusters_bytes};
 use radiosity::patches::{Patches, size_for_count};
 use radiosity::scene::{Scene, cornell_box};
 use radiosity::solve::{Options, Solution, SolveError, Solver, Storage, Unobserved, solve};
@@ -297,16 +297,46 @@ fn memory_is_known_before_it_is_taken() {
 #[test]
 fn links_that_do_not_fit_are_refused_with_advice() {
     let (patches, visibility) = cut(&cornell_box(), 2000);
-    let options = Options { storage: Storage::Hierarchical, memory: 1 << 20, ..Options::default() };
-    let error = solve(&patches, &visibility, &options, &mut Unobserved).unwrap_err().to_string();
-    assert!(
-        error.contains("links between 2000 patches take about") && error.contains("larger patches"),
-        "{error}"
-    );
+    let refused = |options: Options| solve(&patches, &visibility, &options, &mut Unobserved).unwrap_err();
+    // Before there are clusters, and before there are links.
+    for memory in [1 << 20, clusters_bytes(patches.len())] {
+        let options = Options { storage: Storage::Hierarchical, memory, ..Options::default() };
+        let error = refused(options).to_string();
+        let told = error.contains("clusters of 2000 patches and their links take about");
+        assert!(told && error.contains("larger patches"), "{error}");
+    }
     // LU makes a matrix of them, however they are kept.
     for storage in [Storage::Hierarchical, Storage::OnTheFly] {
-        let options = Options { storage, solver: Solver::Direct, memory: 8 << 20, ..options };
-        let error = solve(&patches, &visibility, &options, &mut Unobserved).unwrap_err();
+        let options = Options { storage, solver: Solver::Direct, memory: 8 << 20, ..Options::default() };
+        let error = refused(options);
         assert!(matches!(error, SolveError::Memory { patches: 2000, .. }), "{error}");
     }
+}
+
+#[test]
+fn what_is_kept_halfway_is_gone_on_with() {
+    let (patches, visibility) = cut(&scenes::boxes(), 3000);
+    let (plan, part, seed) = (Plan::new(&patches, &visibility), 0.1, 7);
+    let light = Light::ambient(&patches, &patches.emission);
+    let none = Kept::none(&plan, light.clone(), part, &patches.emission);
+    let done = AtomicU64::new(0);
+    let progress = |patches: usize| {
+        done.fetch_add(patches as u64, Ordering::Relaxed);
+    };
+    let half = plan.go_on(none, part, seed, (progress, || done.load(Ordering::Relaxed) >= 1000)).unwrap_err();
+    assert!((1000..patches.len()).contains(&half.patches()), "{} of {}", half.patches(), patches.len());
+
+    let mut file = Vec::new();
+    half.write(&mut file).unwrap();
+    let read = Kept::read(&plan, part, &patches.emission, &mut file.as_slice()).unwrap();
+    assert_eq!(read, half);
+    let resumed = plan.go_on(read, part, seed, (|_| (), || false)).unwrap();
+    let whole = plan.assemble(&light, part, seed, |_| ());
+    assert_eq!(resumed.statistics(), whole.statistics());
+    let act = |links: &Hierarchical| {
+        let mut image = vec![Rgb::splat(0.0); patches.len()];
+        links.apply(&patches.reflectance, &mut image);
+        image
+    };
+    assert_eq!(act(&resumed), act(&whole));
 }

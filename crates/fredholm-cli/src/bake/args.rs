@@ -1,6 +1,6 @@
 //! What may be said to `fredholm bake`.
 
-use crate::args::{number, percent};
+use crate::args::{number, percent, with_extension};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -29,7 +29,7 @@ pub struct Bake {
     pub scene: Option<PathBuf>,
 
     /// The binary glTF to write [default: the scene's name, .glb]
-    #[arg(short, long, value_name = "FILE.glb")]
+    #[arg(short, long, value_name = "FILE.glb", value_parser = glb)]
     pub output: Option<PathBuf>,
 
     /// The irradiance of every texel as well, as OpenEXR
@@ -59,4 +59,8 @@ pub struct Bake {
     /// Threads to work with [default: one per core]
     #[arg(long, value_name = "N", value_parser = number(1, 1024))]
     pub threads: Option<usize>,
+}
+
+fn glb(text: &str) -> Result<PathBuf, String> {
+    with_extension(text, &["glb"])
 }

@@ -71,7 +71,8 @@ Examples:
   fredholm radiosity --solver southwell --ambient --frames shots    the light, shot by shot
 
 Exit codes: 0 solved; 1 an error; 2 a mistake on the command line; 3 all is written, but the
-residual did not reach the tolerance within the iterations; 4 no answer, or more than one (--thermal).";
+residual did not reach the tolerance within the iterations; 4 no answer, or more than one (--thermal);
+130 interrupted.";
 
 /// What says how to find the answer, and has no place where only its error is asked for.
 const WAYS: [&str; 14] = [
@@ -171,7 +172,7 @@ pub struct Radiosity {
     #[arg(long, value_name = "N", value_parser = at_least_one, help_heading = "Equation")]
     pub iterations: Option<usize>,
 
-    /// Where to keep what is found if the run is interrupted with Ctrl-C (hierarchical operator)
+    /// Where to keep the links that are found if the run is interrupted with Ctrl-C before it is solved (hierarchical operator)
     #[arg(long, value_name = "FILE", conflicts_with_all = ["thermal", "accuracy"], help_heading = "Equation")]
     pub checkpoint: Option<PathBuf>,
 

@@ -2,7 +2,7 @@
 
 use super::args::Radiosity;
 use crate::ending::Ending;
-use crate::output::{Output, clear_on_interrupt, stop_on_interrupt};
+use crate::output::{Output, clear_on_interrupt, end_on_interrupt, stop_on_interrupt};
 use crate::terminal::warn;
 use anyhow::{Context, Result};
 use radiosity::hierarchical::Kept;
@@ -27,6 +27,11 @@ impl Checkpoint {
         Ok(Self { output: Some(Output::prepare(path)?), stopped: Some(stop_on_interrupt()?) })
     }
 
+    /// Nothing is kept from now on: an interrupt ends the run.
+    pub fn close(&self) {
+        end_on_interrupt();
+    }
+
     /// What says whether to stop.
     pub fn stop(&self) -> Stop {
         Stop(self.stopped)
@@ -35,8 +40,13 @@ impl Checkpoint {
     /// Keeps what was found.
     pub fn keep(self, kept: &Kept, patches: usize) -> Result<Ending> {
         let Some(output) = self.output else { return Ok(Ending::Interrupted) };
+        let found = kept.patches();
+        if found == 0 {
+            warn(&"interrupted before there were any links: nothing is kept")?;
+            return Ok(Ending::Interrupted);
+        }
         let path = output.write(|out| kept.write(out))?;
-        let (found, file) = (kept.patches(), path.display());
+        let file = path.display();
         warn(&format!(
             "interrupted: {found} of {patches} patches have their links, kept in {file}; go on with --resume {file}"
         ))?;

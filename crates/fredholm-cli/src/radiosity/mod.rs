@@ -113,13 +113,17 @@ fn walk<V: Colour>(
         }
     };
     let solution = match solved {
-        Err(SolveError::Interrupted { patches, kept }) => return checkpoint.keep(&kept, patches),
+        Err(SolveError::Interrupted { patches, kept }) => {
+            watcher.clear();
+            return checkpoint.keep(&kept, patches);
+        }
         Err(error @ SolveError::Kept(_)) => {
             return Err(error)
                 .with_context(|| format!("{}", args.resume.as_deref().unwrap_or(Path::new("")).display()));
         }
         solved => solved?,
     };
+    checkpoint.close();
     let Watched { mut files, recording, links: drawn } = watcher.finish(&solution, &mut seconds)?;
 
     if let Some(output) = picture {

@@ -85,10 +85,15 @@ impl<'a, V: Colour> Watcher<'a, V> {
         Self { links: draws.then(String::new), ..self }
     }
 
-    /// What was seen, and the time of what was watched.
-    pub fn finish(self, solution: &Solution<V>, seconds: &mut Seconds) -> Result<Watched> {
+    /// Takes the bars off the terminal.
+    pub fn clear(&self) {
         self.assembly.finish_and_clear();
         self.relaxation.finish_and_clear();
+    }
+
+    /// What was seen, and the time of what was watched.
+    pub fn finish(self, solution: &Solution<V>, seconds: &mut Seconds) -> Result<Watched> {
+        self.clear();
         if let Some(error) = self.failed {
             return Err(error);
         }

@@ -86,7 +86,8 @@ pub struct Report {
     pub files: Vec<PathBuf>,
 }
 
-/// Links to clusters, and the error of the light that they bring: in the mean square over all surfaces, relative.
+/// Links to clusters, and the error of the light that they bring: in the mean square over all surfaces, relative to all that these
+/// send.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Links {
     /// Links from a patch to a cluster.
@@ -103,6 +104,8 @@ pub struct Links {
     pub discretisation_error: f64,
     /// Of the links: clusters, form factors, visibility; and of the iteration.
     pub link_error: f64,
+    /// The part of what surfaces send that they reflect: the errors divided by it are relative to that.
+    pub reflected: f64,
 }
 
 impl From<radiosity::solve::Links> for Links {
@@ -116,6 +119,7 @@ impl From<radiosity::solve::Links> for Links {
             error: judged.error,
             discretisation_error: judged.patches,
             link_error: judged.links,
+            reflected: judged.reflected,
         }
     }
 }

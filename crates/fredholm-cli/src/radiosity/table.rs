@@ -1,6 +1,6 @@
 //! The numbers of a run as people read them.
 
-use super::report::{Report, Surface};
+use super::report::{Links, Report, Surface};
 use super::timing::Seconds;
 use crate::text::{self, Digits};
 use radiosity::scene::CleanUp;
@@ -63,10 +63,7 @@ fn lines(report: &Report) -> Vec<(&'static str, String)> {
         );
         // In the place of form factors: a link is one.
         lines[1] = ("links", links);
-        let [all, patches, links] =
-            [of.error, of.discretisation_error, of.link_error].map(|part| format!("{:.2} %", 100.0 * part));
-        let error = format!("{all} of the light in the mean square: patches {patches}, links {links}");
-        lines.push(("error", error));
+        lines.push(("error", error_of(of)));
     }
     lines.splice(0..0, report.lights.lines());
     lines.extend(of_mesh(report.smooth_normals, report.clean_up));
@@ -144,15 +141,44 @@ fn error_bound(report: &Report) -> String {
     }
 }
 
+/// The error of light by links, of what surfaces reflect and of all that they send.
+fn error_of(links: &Links) -> String {
+    let Links { error, discretisation_error, link_error, reflected, .. } = *links;
+    if reflected == 0.0 {
+        return "none: nothing is reflected".to_owned();
+    }
+    let percent = |part: f64| format!("{:.2} %", 100.0 * part);
+    let [all, patches, links] =
+        [error, discretisation_error, link_error].map(|part| percent(part / reflected));
+    let told = format!(
+        "{all} of the light that surfaces reflect, in the mean square: patches {patches}, links {links}"
+    );
+    // Without lamps there is no other light.
+    if reflected > 0.999 {
+        told
+    } else {
+        format!("{told}; {} of all light, with that of lamps", percent(error))
+    }
+}
+
 fn closure(report: &Report) -> String {
     match (report.escaping, report.closure_defect) {
         (Some(share), _) => {
             let where_to =
                 if report.lights.has_sky() { "end in the sky or under it" } else { "leave the scene" };
-            format!("open: {:.1} % of the sight lines {where_to}", 100.0 * share)
+            let from = match report.norm_rows < report.patches {
+                true => format!(" from {} patches", report.norm_rows),
+                false => String::new(),
+            };
+            format!("open: {:.1} % of the sight lines{from} {where_to}", 100.0 * share)
         }
         (None, Some(defect)) => {
             let rows = grouped(report.closure_rows.unwrap_or(0) as u64);
+            if report.links.is_some() {
+                return format!(
+                    "links of {rows} patches add up to 1 within {defect:.1e}: those to dark places are coarse"
+                );
+            }
             let word = format!("form factors of {rows} patches add up to 1 within {defect:.1e}");
             match defect > SUSPICIOUS * report.accuracy {
                 true => format!("{word}, MORE THAN ASKED FOR: do faces lie in one another?"),

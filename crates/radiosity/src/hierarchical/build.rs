@@ -77,7 +77,7 @@ const TOGETHER: usize = 16;
 /// Patches that share what seems hidden, at least and at most: more in large scenes.
 const NEIGHBOURS: [usize; 2] = [256, 4096];
 
-/// So many parts of a scene at least are done by themselves: more than there are cores, mostly.
+/// A scene is done in about so many parts at least, more than there are cores, mostly; in fewer where these would have too few patches.
 const REGIONS: usize = 64;
 
 /// Receivers whose links tell how many there will be, and the seed of their rays.
@@ -89,6 +89,13 @@ const LOOKS_SEED: u64 = 0x100c;
 struct Region {
     cluster: Cluster,
     receivers: Range<usize>,
+}
+
+/// Bytes that clusters of so many patches take, two for each.
+pub fn clusters_bytes(patches: usize) -> u64 {
+    let cluster = size_of::<Whole>() + size_of::<Sender>() + 14 * size_of::<f64>();
+    let patch = size_of::<Polygon>() + size_of::<Spot>() + 4 * size_of::<usize>();
+    (patches * (2 * cluster + patch)) as u64
 }
 
 /// Patches in clusters, before there are links.
@@ -123,7 +130,7 @@ impl<'a, V: Value> Plan<'a, V> {
         Self { shaped: true, ..self }
     }
 
-    /// About how many bytes the links will take, where one may bring a `part` of what arrives.
+    /// About how many bytes the clusters and their links will take, where one may bring a `part` of what arrives.
     pub fn bytes(&self, light: &Light, part: f64) -> u64 {
         let step = self.receivers.len().div_ceil(LOOKS).max(1);
         let looked: Vec<Cluster> = self.receivers.iter().copied().step_by(step).collect();
@@ -138,13 +145,7 @@ impl<'a, V: Value> Plan<'a, V> {
             blocks.bytes()
         };
         let looks: u64 = looked.par_iter().map(bytes).sum();
-        looks * self.receivers.len() as u64 / looked.len().max(1) as u64 + self.tree_bytes()
-    }
-
-    fn tree_bytes(&self) -> u64 {
-        let cluster = size_of::<Whole>() + size_of::<Sender>() + 14 * size_of::<f64>();
-        let patch = size_of::<Polygon>() + size_of::<Spot>() + 4 * size_of::<usize>();
-        (self.clusters.wholes.len() * cluster + self.patches.len() * patch) as u64
+        looks * self.receivers.len() as u64 / looked.len().max(1) as u64 + clusters_bytes(self.patches.len())
     }
 
     /// Brightness, its standard deviation, and what arrives, by cluster.
@@ -303,7 +304,7 @@ impl<'a, V: Value> Plan<'a, V> {
             links: sum(Blocks::links),
             rays: sum(Blocks::rays),
             link_bytes: sum(Blocks::bytes),
-            bytes: sum(Blocks::bytes) + self.tree_bytes(),
+            bytes: sum(Blocks::bytes) + clusters_bytes(self.patches.len()),
         };
         Hierarchical::new(Arc::clone(&self.clusters), regions, order_of, statistics)
     }

@@ -7,6 +7,7 @@ use crate::polygon::Polygon;
 use crate::visibility::Visibility;
 use fredholm::operator::hierarchical::Cluster;
 use std::collections::HashMap;
+use std::ops::Range;
 
 /// Cuts through the tree, each for the patches of one receiving cluster.
 ///
@@ -99,6 +100,7 @@ impl Cuts<'_> {
         let here = self.clusters.whole(receiver);
         let (hull, centre) = (self.clusters.hull(receiver), self.clusters.sender(receiver).centre);
         let most = self.part * self.arriving[receiver.index()];
+        let own = self.clusters.tree.range(receiver);
         let mut stack: Vec<Cluster> = self.clusters.tree.root().into_iter().collect();
         while let Some(cluster) = stack.pop() {
             let there = self.clusters.whole(cluster);
@@ -118,7 +120,7 @@ impl Cuts<'_> {
             let rays = (SURE * excess).ceil() as u64;
             let counts = excess > 1.0 && (blocker.is_none() || !self.seems_hidden(cluster, rays, hidden));
             match self.clusters.tree.children(cluster) {
-                Some([a, b]) if counts => stack.extend([b, a]),
+                Some([a, b]) if counts || self.overlaps(cluster, &own) => stack.extend([b, a]),
                 _ => {
                     let clear = blocker.is_none() && self.is_clear(hull.as_deref(), cluster);
                     let likely = || {
@@ -131,6 +133,12 @@ impl Cuts<'_> {
                 }
             }
         }
+    }
+
+    /// Whether a cluster has some of these places: no patch gathers from what it is a part of.
+    fn overlaps(&self, cluster: Cluster, places: &Range<usize>) -> bool {
+        let range = self.clusters.tree.range(cluster);
+        range.start < places.end && places.start < range.end
     }
 
     /// Whether it is proved that nothing is between a polygon and a cluster.
@@ -229,5 +237,28 @@ mod tests {
         let mean = drawn.iter().map(|(_, sum)| *sum).sum::<f64>() / SEEDS as f64;
         assert!(count < 0.95 * all as f64, "{count} of {all}");
         assert!((mean / whole - 1.0).abs() < 0.02, "{mean} in the mean of {whole}");
+    }
+
+    #[test]
+    fn no_patch_gathers_from_what_it_is_a_part_of_however_dark_that_is() {
+        let (visibility, clusters) = cornell_clusters(0.1);
+        let (dark, ones) = (vec![1e-9; clusters.wholes.len()], vec![1.0; clusters.wholes.len()]);
+        let (clusters, visibility) = (&clusters, &visibility);
+        let [brightness, deviation, arriving] = [&dark, &dark, &ones];
+        let cuts = Cuts { clusters, visibility, brightness, deviation, arriving, part: 0.3, draws: None };
+        let (mut found, mut large) = (Vec::new(), 0);
+        for receiver in up_to(&clusters.tree, 16) {
+            cuts.of(receiver, &mut Hidden::from(receiver), &mut found);
+            let own = clusters.tree.range(receiver);
+            for Found { cluster, .. } in &found {
+                let size = clusters.tree.range(*cluster).len();
+                assert!(
+                    size == 1 || !cuts.overlaps(*cluster, &own),
+                    "{size} patches of which some are {own:?}"
+                );
+                large = large.max(size);
+            }
+        }
+        assert!(large > 100, "the others stay together: {large}");
     }
 }

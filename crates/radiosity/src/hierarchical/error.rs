@@ -18,6 +18,8 @@ pub struct Judged {
     pub patches: f64,
     /// What links get wrong: light that is not the same all over a cluster, form factors, visibility; and what iteration left.
     pub links: f64,
+    /// ‖B − E‖ / ‖B‖: what surfaces reflect, as a part of all that they send. These errors are that much larger as parts of it.
+    pub reflected: f64,
 }
 
 /// Patches that are looked at.
@@ -37,7 +39,10 @@ impl<V: Value> Plan<'_, V> {
     pub fn judge(&self, source: &[V], u: &[V], light: &Light, part: f64) -> Judged {
         let (areas, rho) = (&self.patches.areas, &self.patches.reflectance);
         let total: f64 = areas.iter().sum();
-        let norm = (areas.iter().zip(u).map(|(area, u)| area * u.square()).sum::<f64>() / total).sqrt();
+        let mean = |squares: &mut dyn Iterator<Item = f64>| {
+            (areas.iter().zip(squares).map(|(area, square)| area * square).sum::<f64>() / total).sqrt()
+        };
+        let norm = mean(&mut u.iter().map(V::square));
         if norm == 0.0 {
             return Judged::default();
         }
@@ -54,7 +59,9 @@ impl<V: Value> Plan<'_, V> {
         let residuals: Vec<V> = looked.iter().zip(arriving).map(residual).collect();
         let links = told(&residuals, self.patches.mean_reflectance()) / norm;
         let patches = self.variation(u).sqrt() / norm;
-        Judged { error: (links * links + patches * patches).sqrt(), patches, links }
+        let reflected =
+            mean(&mut u.iter().zip(&self.patches.emission).map(|(u, e)| (*u - *e).square())) / norm;
+        Judged { error: (links * links + patches * patches).sqrt(), patches, links, reflected }
     }
 
     /// F u on parts of patches, asked anew: with an eighth of what a link may bring, and other rays.

@@ -81,6 +81,9 @@ const MOST_RAYS: u32 = 16;
 const LEAST_RAYS: u32 = 8;
 const NEAR_MATTERS: f64 = 0.25;
 
+/// Another seed than that of rays.
+const COLUMN: u64 = 0xc01a;
+
 /// How often a ray is drawn anew that would leave or arrive at a back.
 const TRIES: usize = 4;
 
@@ -150,7 +153,7 @@ impl<'a> Factors<'a> {
     fn cast(&self, parts: &[Polygon], link: &Link, column: &mut Column) {
         let Column { factors, rays, cast, shares, elements } = column;
         rays.clear();
-        let mut random = Random::new(self.seed, link.first as u64, link.number);
+        let mut random = Random::new(self.seed ^ COLUMN, link.first as u64, link.number);
         let begin = random.next();
         let most = factors.iter().fold(0.0, |most: f64, factor| most.max(*factor));
         let chance = most / (SMALL * link.worth);
@@ -164,8 +167,7 @@ impl<'a> Factors<'a> {
             let wanted = ((*whole / link.worth).ceil() as u32).clamp(1, MOST_RAYS);
             if *whole > NEAR_MATTERS * link.worth && self.is_near(part, link.sender) {
                 let near = wanted.max(LEAST_RAYS);
-                *whole *= self.seen_near(part, link, k, near);
-                *cast += u64::from(near);
+                *whole *= self.seen_near(part, link, (k, near), cast);
                 continue;
             }
             for ray in 0..wanted {
@@ -176,7 +178,6 @@ impl<'a> Factors<'a> {
                 rays.push(Ray { patch: k, part, spot, random, ends: None });
             }
         }
-        *cast += rays.len() as u64;
         for ray in rays.iter_mut() {
             // Of a cluster, or beyond a horizon, not all faces the patch: what turns its back has no part in the formula either.
             for _ in 0..TRIES {
@@ -193,11 +194,12 @@ impl<'a> Factors<'a> {
         }
         for rays in rays.chunk_by(|a, b| a.patch == b.patch) {
             let drawn = rays.iter().filter_map(|ray| ray.ends);
-            let (mut all, mut clear) = (0, 0);
+            let (mut all, mut clear) = (0_u32, 0);
             for [x, y] in drawn {
                 all += 1;
                 clear += u32::from(self.visibility.unoccluded(x, y));
             }
+            *cast += u64::from(all);
             factors[rays[0].patch] *= if all > 0 { f64::from(clear) / f64::from(all) } else { 0.0 };
         }
     }
@@ -234,7 +236,7 @@ impl<'a> Factors<'a> {
 
     /// What a patch sees of one that is near, as a part: near patches see each other from where the kernel is large, or do not: rays
     /// are weighed by it, and one tells nothing.
-    fn seen_near(&self, part: &Polygon, link: &Link, k: usize, rays: u32) -> f64 {
+    fn seen_near(&self, part: &Polygon, link: &Link, (k, rays): (usize, u32), cast: &mut u64) -> f64 {
         let (mut all, mut clear) = (0.0, 0.0);
         let there = &self.clusters.polygons[self.clusters.tree.range(link.sender).start];
         for ray in 0..rays {
@@ -246,6 +248,7 @@ impl<'a> Factors<'a> {
                 (kernel > 0.0 && kernel.is_finite()).then_some((ends, kernel))
             });
             if let Some(([x, y], kernel)) = drawn {
+                *cast += 1;
                 all += kernel;
                 clear += if self.visibility.unoccluded(x.position, y.position) { kernel } else { 0.0 };
             }

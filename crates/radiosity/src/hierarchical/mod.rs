@@ -21,7 +21,7 @@ mod relaxed;
 mod spot;
 mod sweep;
 
-pub use build::{Light, Plan};
+pub use build::{Light, Plan, clusters_bytes};
 pub use error::Judged;
 pub(crate) use error::told;
 pub use kept::{Kept, KeptError};

@@ -160,7 +160,7 @@ impl<V: Value> Shoot<V> for Shooting<'_, V> {
         }
     }
 
-    /// A patch receives from disjoint clusters by factors that add up to 1 or less, and links hold no more than the largest mean.
+    /// A patch receives from disjoint clusters by factors that add up to about 1 or less, and links hold no more than the largest mean.
     fn held(&self) -> f64 {
         self.sizes.size()
     }

@@ -49,7 +49,9 @@ pub enum PatchError {
     #[error("patch size {0} m: give a positive finite length")]
     Size(f64),
     /// More patches than can be numbered or stored.
-    #[error("patch size {size} m would make {count:.3e} patches, more than {MAX_PATCHES}: give a larger one")]
+    #[error(
+        "patches of {size:.2e} m would be {count:.3e}, more than {MAX_PATCHES}: take larger ones, or fewer"
+    )]
     TooMany {
         /// The patch size asked for, in m.
         size: f64,

@@ -1,9 +1,8 @@
 //! F as links to clusters: a sketch tells how bright patches are, then there are the links that this brightness needs.
 
 use super::{Observer, Run, SAMPLED_ROWS, Solution, SolveError, spread};
-use crate::hierarchical::{Judged, Kept, Light, Plan, Statistics};
+use crate::hierarchical::{Judged, Kept, Light, Plan, Statistics, clusters_bytes};
 use fredholm::operator::Operator;
-use fredholm::relax::Outcome;
 use fredholm::system::System;
 use fredholm::value::Value;
 use std::time::Instant;
@@ -35,6 +34,7 @@ impl<V: Value> Run<'_, V> {
         let start = Instant::now();
         self.check_factors(self.patches.len())?;
         let part = (PART * self.options.accuracy).min(MOST);
+        self.check_links(clusters_bytes(self.patches.len()))?;
         let plan = Plan::new(self.patches, self.visibility);
         let kept = match observer.kept() {
             Some(mut file) => Kept::read(&plan, part, self.source, &mut file)?,
@@ -55,16 +55,17 @@ impl<V: Value> Run<'_, V> {
         let system = System::new(self.source, self.reflectance, &operator)?;
         let mut relaxation = self.relaxation(system);
         let report = self.relax(&mut *relaxation, observer)?;
-        if report.outcome == Outcome::Interrupted && observer.stops() {
-            drop(relaxation);
-            return Err(interrupted(operator.into_kept(plan.digest(part, self.source), light)));
-        }
         let mut irradiance = vec![V::splat(0.0); self.source.len()];
         operator.apply(&relaxation.solution(), &mut irradiance);
         let checked = spread(self.source.len(), SAMPLED_ROWS);
         let solution = self.judge(system, &irradiance, report, &checked);
-        let light = Light::of(self.patches, &solution.radiosity, &solution.irradiance);
-        let judged = plan.judge(self.source, &solution.radiosity, &light, part);
+        let found = Light::of(self.patches, &solution.radiosity, &solution.irradiance);
+        // Nobody waits for an error who does not wait for the answer.
+        let judged = (!observer.stops()).then(|| plan.judge(self.source, &solution.radiosity, &found, part));
+        drop(relaxation);
+        let Some(judged) = judged.filter(|_| !observer.stops()) else {
+            return Err(interrupted(operator.into_kept(plan.digest(part, self.source), light)));
+        };
         let statistics = *operator.statistics();
         Ok(Solution {
             form_factors: statistics.links,
@@ -76,13 +77,13 @@ impl<V: Value> Run<'_, V> {
         })
     }
 
-    /// The bytes that links will take, if there are so many.
+    /// The bytes that clusters and links will take, if there are so many.
     fn check_links(&self, needed: u64) -> Result<u64, SolveError> {
         let (patches, available) = (self.patches.len(), self.options.memory);
         if needed > available { Err(SolveError::Links { patches, needed, available }) } else { Ok(needed) }
     }
 
-    /// The light by links from one patch of each cluster, found for light that is the same everywhere.
+    /// The light by coarser links, found for light that is the same everywhere.
     fn sketched(&self, plan: &Plan<'_, V>, part: f64) -> Result<Light, SolveError> {
         let ambient = Light::ambient(self.patches, self.source);
         // For light that is the same everywhere there are about as many as for the true one: too many are told at once.
