@@ -73,23 +73,31 @@ fn all_solvers_and_operators_find_the_same_light() {
 fn a_run_that_is_interrupted_is_gone_on_with_and_finds_the_same() {
     let folder = folder("checkpoint");
     let words = "radiosity --operator hierarchical --patch-count 3000 --factor-accuracy 3e-4";
-    let mut run = Command::new(env!("CARGO_BIN_EXE_fredholm"));
-    let run = run.current_dir(&folder).args(words.split(' ')).args([
-        "--threads",
-        "1",
-        "--checkpoint",
-        "half.links",
-    ]);
-    let mut child = run.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
-    while names(&folder).is_empty() {
-        assert_eq!(child.try_wait().unwrap(), None, "it ended before it could be interrupted");
-        sleep(Duration::from_millis(10));
+    // What a run says that is interrupted so long after it has begun.
+    let interrupted = |wait: f64| {
+        let mut run = Command::new(env!("CARGO_BIN_EXE_fredholm"));
+        let options = ["--threads", "1", "--checkpoint", "half.links"];
+        let run = run.current_dir(&folder).args(words.split(' ')).args(options);
+        let mut child = run.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        while names(&folder).is_empty() {
+            assert_eq!(child.try_wait().unwrap(), None, "it ended before it could be interrupted");
+            sleep(Duration::from_millis(10));
+        }
+        sleep(Duration::from_secs_f64(wait));
+        Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+        let output = child.wait_with_output().unwrap();
+        let told = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(130), "{told}");
+        told
+    };
+    // At first there is only the sketch, on a slow machine for seconds.
+    let mut wait = 0.1;
+    let mut told = interrupted(wait);
+    while told.contains("before there were any links: nothing is kept") {
+        assert_eq!(names(&folder), [""; 0], "{told}");
+        wait *= 1.4;
+        told = interrupted(wait);
     }
-    sleep(Duration::from_millis(500));
-    Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
-    let output = child.wait_with_output().unwrap();
-    let told = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(130), "{told}");
     assert!(told.contains("of 3008 patches have their links, kept in half.links"), "{told}");
     assert_eq!(names(&folder), ["half.links"]);
 
