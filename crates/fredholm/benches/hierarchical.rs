@@ -156,7 +156,8 @@ fn solved(
     exact: &dyn Fn(usize) -> f64,
     rho: f64,
 ) -> Result<Row, Box<dyn Error>> {
-    let (action, ratio) = action(operator, f);
+    // From within the pool: a thread from outside waits for others that sleep.
+    let (action, ratio) = rayon::scope(|_| action(operator, f));
     let coefficient = vec![rho; f.len()];
     let start = Instant::now();
     let mut gmres = Gmres::new(System::new(f, &coefficient, system)?);

@@ -228,6 +228,8 @@ pub struct Solution<V> {
     pub form_factors: u64,
     /// Rays cast for them.
     pub rays: u64,
+    /// Seconds to find what lights that are no surfaces send.
+    pub light_seconds: f64,
     /// Seconds to compute the form factors that are stored.
     pub assembly_seconds: f64,
     /// Seconds to solve.
@@ -245,9 +247,21 @@ pub fn solve<V: Value>(
 ) -> Result<Solution<V>, SolveError> {
     let accuracy = options.accuracy;
     let Patches { reflectance, areas, .. } = patches;
+    let start = Instant::now();
     let lit = &lights::mean_irradiances(patches, visibility);
+    let light_seconds = start.elapsed().as_secs_f64();
     let source = &source(&patches.emission, reflectance, lit);
-    let run = Run { patches, visibility, options, source, lit, reflectance, weights: areas, space: None };
+    let run = Run {
+        patches,
+        visibility,
+        options,
+        source,
+        lit,
+        light_seconds,
+        reflectance,
+        weights: areas,
+        space: None,
+    };
     match options.method {
         _ if options.storage == Storage::Hierarchical => {
             if options.method == Method::Galerkin {
@@ -287,10 +301,22 @@ pub fn solve_elements<V: Value>(
         return Err(SolveError::NoLinks);
     }
     let reflectance = &space.spread(&patches.reflectance);
+    let start = Instant::now();
     let lit = &space.interpolate(|node| lights::irradiance(&patches.lights, visibility, node));
+    let light_seconds = start.elapsed().as_secs_f64();
     let source = &source(&space.spread(&patches.emission), reflectance, lit);
     let weights = space.weights();
-    let run = Run { patches, visibility, options, source, lit, reflectance, weights, space: Some(space) };
+    let run = Run {
+        patches,
+        visibility,
+        options,
+        source,
+        lit,
+        light_seconds,
+        reflectance,
+        weights,
+        space: Some(space),
+    };
     let coupling = match options.method {
         Method::Nystrom => {
             let nodes = space.interpolate(|node| *node);
@@ -316,6 +342,8 @@ struct Run<'a, V> {
     /// f, its H from lights that are no surfaces, ρ and the area that it stands for, of each unknown.
     source: &'a [V],
     lit: &'a [V],
+    /// What H took.
+    light_seconds: f64,
     reflectance: &'a [V],
     weights: &'a [f64],
     /// Whose coefficients the unknowns are, if they are not the patches' own.
@@ -490,6 +518,7 @@ impl<V: Value> Run<'_, V> {
             closure: Closure::test(self.patches, self.visibility, &rows),
             form_factors: 0,
             rays: 0,
+            light_seconds: self.light_seconds,
             assembly_seconds: 0.0,
             solve_seconds: 0.0,
             links: None,

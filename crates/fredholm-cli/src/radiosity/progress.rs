@@ -97,6 +97,7 @@ impl<'a, V: Colour> Watcher<'a, V> {
         if let Some(error) = self.failed {
             return Err(error);
         }
+        seconds.lights = solution.light_seconds;
         seconds.form_factors = solution.assembly_seconds;
         seconds.solve = solution.solve_seconds;
         let mut files = Vec::new();

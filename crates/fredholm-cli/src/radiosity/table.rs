@@ -204,6 +204,7 @@ fn time(seconds: &Seconds) -> String {
         ("load", seconds.load),
         ("patches", seconds.patches),
         ("visibility", seconds.visibility),
+        ("lights", seconds.lights),
         ("form factors", seconds.form_factors),
         ("solve", seconds.solve),
         ("frames", seconds.frames),

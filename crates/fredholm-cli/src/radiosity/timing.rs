@@ -12,6 +12,8 @@ pub struct Seconds {
     pub patches: f64,
     /// Preparing the rays.
     pub visibility: f64,
+    /// Finding what points, luminaires, suns and a sky send.
+    pub lights: f64,
     /// Computing the form factors that are stored.
     pub form_factors: f64,
     /// Solving, without the frames.
