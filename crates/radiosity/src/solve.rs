@@ -247,21 +247,9 @@ pub fn solve<V: Value>(
 ) -> Result<Solution<V>, SolveError> {
     let accuracy = options.accuracy;
     let Patches { reflectance, areas, .. } = patches;
-    let start = Instant::now();
-    let lit = &lights::mean_irradiances(patches, visibility);
-    let light_seconds = start.elapsed().as_secs_f64();
-    let source = &source(&patches.emission, reflectance, lit);
-    let run = Run {
-        patches,
-        visibility,
-        options,
-        source,
-        lit,
-        light_seconds,
-        reflectance,
-        weights: areas,
-        space: None,
-    };
+    let lit = &Lit::find(|| lights::mean_irradiances(patches, visibility));
+    let source = &source(&patches.emission, reflectance, &lit.irradiance);
+    let run = Run { patches, visibility, options, source, lit, reflectance, weights: areas, space: None };
     match options.method {
         _ if options.storage == Storage::Hierarchical => {
             if options.method == Method::Galerkin {
@@ -301,22 +289,10 @@ pub fn solve_elements<V: Value>(
         return Err(SolveError::NoLinks);
     }
     let reflectance = &space.spread(&patches.reflectance);
-    let start = Instant::now();
-    let lit = &space.interpolate(|node| lights::irradiance(&patches.lights, visibility, node));
-    let light_seconds = start.elapsed().as_secs_f64();
-    let source = &source(&space.spread(&patches.emission), reflectance, lit);
+    let lit = &Lit::find(|| space.interpolate(|node| lights::irradiance(&patches.lights, visibility, node)));
+    let source = &source(&space.spread(&patches.emission), reflectance, &lit.irradiance);
     let weights = space.weights();
-    let run = Run {
-        patches,
-        visibility,
-        options,
-        source,
-        lit,
-        light_seconds,
-        reflectance,
-        weights,
-        space: Some(space),
-    };
+    let run = Run { patches, visibility, options, source, lit, reflectance, weights, space: Some(space) };
     let coupling = match options.method {
         Method::Nystrom => {
             let nodes = space.interpolate(|node| *node);
@@ -341,13 +317,24 @@ struct Run<'a, V> {
     options: &'a Options,
     /// f, its H from lights that are no surfaces, ρ and the area that it stands for, of each unknown.
     source: &'a [V],
-    lit: &'a [V],
-    /// What H took.
-    light_seconds: f64,
+    lit: &'a Lit<V>,
     reflectance: &'a [V],
     weights: &'a [f64],
     /// Whose coefficients the unknowns are, if they are not the patches' own.
     space: Option<&'a Space<'a>>,
+}
+
+/// H from lights that are no surfaces, of each unknown, and the seconds that it took.
+struct Lit<V> {
+    irradiance: Vec<V>,
+    seconds: f64,
+}
+
+impl<V> Lit<V> {
+    fn find(irradiance: impl FnOnce() -> Vec<V>) -> Self {
+        let start = Instant::now();
+        Self { irradiance: irradiance(), seconds: start.elapsed().as_secs_f64() }
+    }
 }
 
 impl<V: Value> Run<'_, V> {
@@ -498,7 +485,7 @@ impl<V: Value> Run<'_, V> {
         checked: &[usize],
     ) -> Solution<V> {
         let radiosity = source(system.source, system.coefficient, received);
-        let irradiance = received.iter().zip(self.lit).map(|(h, lit)| *h + *lit).collect();
+        let irradiance = received.iter().zip(&self.lit.irradiance).map(|(h, lit)| *h + *lit).collect();
         let sums = row_sums(system.operator, checked);
         let norm = if sums.len() == system.dim() {
             norm_bound(system.coefficient, &sums)
@@ -518,7 +505,7 @@ impl<V: Value> Run<'_, V> {
             closure: Closure::test(self.patches, self.visibility, &rows),
             form_factors: 0,
             rays: 0,
-            light_seconds: self.light_seconds,
+            light_seconds: self.lit.seconds,
             assembly_seconds: 0.0,
             solve_seconds: 0.0,
             links: None,

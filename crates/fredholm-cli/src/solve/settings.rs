@@ -68,8 +68,9 @@ impl Settings {
             _ => {}
         }
         let by_itself = matches!(domain, Domain::Plane(_)) || method.is_none();
-        let unknowns = by_itself.then_some(unknowns.unwrap_or(UNKNOWNS));
+        // What nobody asks for is hardly ever taken.
         unknowns.map_or(Ok(()), |unknowns| check_memory(unknowns, problem.is_complex()))?;
+        let unknowns = by_itself.then_some(unknowns.unwrap_or(UNKNOWNS));
         let setup = |method| setup(method, space, rule, n, tolerance);
         let method = method.map(setup).transpose()?;
         Ok(Self { tolerance, general: args.general || file.general, class, method, n, unknowns })

@@ -15,7 +15,7 @@ pub struct Options {
     pub tolerance: f64,
     /// Nodes in each direction, on the undivided domain (a disk has n radii and 4n angles); `None`: as many as it takes.
     pub n: Option<usize>,
-    /// The most numbers to solve for. 3000 take some seconds and 150 MB.
+    /// The most numbers to solve for. 3000 take some seconds and 400 MB.
     pub unknowns: usize,
 }
 

@@ -88,6 +88,6 @@ impl<V: Value> Run<'_, V> {
         let ambient = Light::ambient(self.patches, self.source);
         // For light that is the same everywhere there are about as many as for the true one: too many are told at once.
         self.check_links(plan.bytes(&ambient, part))?;
-        Ok(plan.sketched(self.source, self.lit, part, SEEDS[0])?)
+        Ok(plan.sketched(self.source, &self.lit.irradiance, part, SEEDS[0])?)
     }
 }
