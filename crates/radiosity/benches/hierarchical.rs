@@ -26,7 +26,7 @@ fn main() {
     let given: Vec<usize> = words.iter().filter_map(|word| word.parse().ok()).collect();
     let counts = if given.is_empty() { vec![1_000, 10_000, 100_000] } else { given };
     let named = |name: &&str| words.iter().any(|word| word == name);
-    let names = ["Cornell box", "boxes", "terrain", "building"];
+    let names = ["Cornell box", "boxes", "terrain", "building", "storeys"];
     let accuracy = words.iter().filter_map(|word| word.parse().ok()).find(|a| *a < 1.0).unwrap_or(1e-3);
     let asked = Asked { accuracy, reference: words.iter().any(|word| word == "reference") };
     println!("{} threads, --factor-accuracy {accuracy}", rayon::current_num_threads());
@@ -65,12 +65,19 @@ struct Asked {
 /// Patches of a room of the building.
 const A_ROOM: f64 = 4500.0;
 
+/// Rooms of a storey from wall to wall, in the building of storeys.
+const A_SIDE: usize = 5;
+
 /// A scene that is worth so many patches.
 fn scene(name: &str, count: usize) -> Scene<Rgb> {
     match name {
         "boxes" => scenes::boxes(),
         "terrain" => scenes::terrain(count),
-        "building" => scenes::building(((count as f64 / A_ROOM).sqrt().ceil() as usize).max(2)),
+        "building" => scenes::building(((count as f64 / A_ROOM).sqrt().ceil() as usize).max(2), 1),
+        "storeys" => scenes::building(
+            A_SIDE,
+            (count as f64 / (A_ROOM * A_SIDE.pow(2) as f64)).round().max(1.0) as usize,
+        ),
         _ => cornell_box(),
     }
 }

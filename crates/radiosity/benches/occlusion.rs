@@ -97,7 +97,7 @@ fn scene(name: &str) -> Scene<fredholm::value::Rgb> {
         "hall" => scenes::boxes(),
         "terrain 100k" => scenes::terrain(100_000),
         "terrain 1M" => scenes::terrain(1_000_000),
-        "building" => scenes::building(7),
+        "building" => scenes::building(7, 1),
         _ => cornell_box(),
     }
 }

@@ -1,7 +1,8 @@
 //! Real or complex, as the formulas have it.
 
 use expression::{Column, Formula};
-use fredholm::equation::{Complex64, Scalar};
+use fredholm::automatic::{self, Options};
+use fredholm::equation::{Answer, Complex64, Equation, EquationError, Scalar};
 use serde::{Serialize, Serializer};
 
 /// A scalar that a formula can be evaluated in.
@@ -14,6 +15,14 @@ pub trait FormulaValue: Scalar {
 
     /// What is written of it.
     fn number(self) -> Number;
+
+    /// The solution by the method that is found, for as many unknowns as there are ways to keep a matrix of such numbers.
+    fn solve<'e, 'a: 'e>(
+        equation: &'e Equation<'a, Self>,
+        options: &Options,
+    ) -> Result<Answer<'e, f64, Self>, EquationError> {
+        automatic::solve(equation, options)
+    }
 }
 
 impl FormulaValue for f64 {
@@ -27,6 +36,13 @@ impl FormulaValue for f64 {
 
     fn number(self) -> Number {
         Number::Real(self)
+    }
+
+    fn solve<'e, 'a: 'e>(
+        equation: &'e Equation<'a, Self>,
+        options: &Options,
+    ) -> Result<Answer<'e, f64, Self>, EquationError> {
+        automatic::solve_large(equation, options)
     }
 }
 

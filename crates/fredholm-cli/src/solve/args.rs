@@ -64,8 +64,9 @@ pub struct Solve {
     #[arg(long, value_name = "N", value_parser = at_least_one, help_heading = "Method")]
     pub n: Option<usize>,
 
-    /// The most unknowns where the program finds how many it takes [default: 3000]; time goes with their cube, memory with
-    /// their square
+    /// The most unknowns where the program finds how many it takes [default: 3000]. In a matrix time goes with their cube and
+    /// memory with their square; more than 3000 of one real equation on a finite interval are kept in blocks of low rank, up to
+    /// millions, 4 kB each
     #[arg(long, value_name = "N", value_parser = at_least_one, help_heading = "Method")]
     pub unknowns: Option<usize>,
 

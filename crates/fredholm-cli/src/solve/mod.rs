@@ -58,7 +58,7 @@ impl Run<'_> {
         let report = Report::new(self.problem, &answer, points.clone(), &self.settings, seconds);
         let asked = self.at.as_ref().map(|_| points.as_slice());
         let window = picture::window(interval, asked);
-        let draw = || Ok(picture::on_line(&self.problem.title, &equation, &answer.solution, window)?);
+        let draw = || Ok(picture::on_line(&self.problem.title, &equation, &answer, window)?);
         self.finish(report, outputs, draw)
     }
 

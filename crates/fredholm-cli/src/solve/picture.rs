@@ -3,7 +3,7 @@
 use super::report::Values;
 use crate::plot::{Axis, Curve, Curves, Figure, Map, Panel, Scale};
 use crate::problem::{FormulaValue, Number, contains, equally_spaced};
-use fredholm::equation::{Equation, EquationError, Function, Interval};
+use fredholm::equation::{Answer, Equation, EquationError, Function, Interval};
 use fredholm::plane;
 use fredholm::product::Product;
 
@@ -13,8 +13,10 @@ const STEPS: usize = 600;
 /// Points where the residual is computed, each an adaptive integral.
 const RESIDUALS: usize = 150;
 
-/// Panels of the integral of the residual: φ must look like a polynomial of degree 15 on each.
+/// Panels of the integral of the residual, at least: φ must look like a polynomial of degree 15 on each, and they are as many as were
+/// solved for.
 const PANELS: usize = 32;
+const DEGREES: usize = 16;
 
 /// The shortest panel at an end is 2⁻²⁵ of the others: there x ln x is a polynomial to rounding of the integral.
 const FINEST: i32 = 25;
@@ -70,9 +72,10 @@ pub fn curves<T: FormulaValue>(name: &str, function: &Function<'_, f64, T>, [a, 
 pub fn on_line<T: FormulaValue>(
     title: &str,
     equation: &Equation<'_, T>,
-    solution: &Function<'_, f64, T>,
+    answer: &Answer<'_, f64, T>,
     window: [f64; 2],
 ) -> Result<Figure, EquationError> {
+    let solution = &answer.solution;
     let x = Axis { name: "x", scale: Scale::Linear };
     let above = Curves {
         x: x.clone(),
@@ -83,7 +86,7 @@ pub fn on_line<T: FormulaValue>(
     let below = Curves {
         x,
         y: Axis { name: "|f + ∫ K φ − φ|", scale: Scale::Decades },
-        curves: residuals(equation, solution, window)?,
+        curves: residuals(equation, answer, window)?,
         height: 260.0,
     };
     Ok(Figure { title: title.to_owned(), panels: vec![Panel::Curves(above), Panel::Curves(below)] })
@@ -99,11 +102,12 @@ fn without_lone_name(mut curves: Vec<Curve>) -> Vec<Curve> {
 
 fn residuals<T: FormulaValue>(
     equation: &Equation<'_, T>,
-    solution: &Function<'_, f64, T>,
+    answer: &Answer<'_, f64, T>,
     [a, b]: [f64; 2],
 ) -> Result<Vec<Curve>, EquationError> {
     let product = Product::new(equation, None)?;
-    let breaks = breaks(equation.interval());
+    let solution = &answer.solution;
+    let breaks = breaks(equation.interval(), PANELS.max(answer.unknowns / DEGREES));
     let x: Vec<f64> = equally_spaced(a, b, RESIDUALS).collect();
     // Zero has no logarithm; where rounding makes it, the line would fall out of the picture.
     let least = f64::EPSILON / 16.0 * Values::new(solution, &x).largest();
@@ -124,14 +128,14 @@ fn residuals<T: FormulaValue>(
 
 /// Panels on which φ is taken for a polynomial of degree 15: equal ones, towards finite ends ever shorter and towards
 /// infinity ever longer ones.
-fn breaks(interval: Interval) -> Vec<f64> {
+fn breaks(interval: Interval, count: usize) -> Vec<f64> {
     let (a, b) = (interval.a(), interval.b());
-    let scale = if interval.is_finite() { (b - a) / PANELS as f64 } else { 1.0 };
+    let scale = if interval.is_finite() { (b - a) / count as f64 } else { 1.0 };
     let octaves = |from: i32, to: i32| (from..=to).map(move |k| scale * f64::from(k).exp2());
     let mut breaks = vec![a, b];
     match (a.is_finite(), b.is_finite()) {
         (true, true) => {
-            breaks.extend(equally_spaced(a, b, PANELS));
+            breaks.extend(equally_spaced(a, b, count));
             breaks.extend(octaves(-FINEST, -1).flat_map(|t| [a + t, b - t]));
         }
         (true, false) => breaks.extend(octaves(-FINEST, FARTHEST).map(|t| a + t)),

@@ -16,9 +16,6 @@ use std::str::FromStr;
 /// The greatest error wanted, when nobody says.
 const TOLERANCE: f64 = 1e-10;
 
-/// The most unknowns, when nobody says: some seconds.
-const UNKNOWNS: usize = 3000;
-
 /// Bytes at the peak for each entry of the matrix of real numbers, measured; complex ones take twice as many.
 const BYTES: u64 = 56;
 
@@ -68,9 +65,13 @@ impl Settings {
             _ => {}
         }
         let by_itself = matches!(domain, Domain::Plane(_)) || method.is_none();
-        // What nobody asks for is hardly ever taken.
-        unknowns.map_or(Ok(()), |unknowns| check_memory(unknowns, problem.is_complex()))?;
-        let unknowns = by_itself.then_some(unknowns.unwrap_or(UNKNOWNS));
+        let complex = problem.is_complex();
+        let in_blocks = matches!(domain, Domain::Line(interval) if interval.is_finite() && problem.components() == 1 && !complex);
+        if !in_blocks {
+            // What nobody asks for is hardly ever taken.
+            unknowns.map_or(Ok(()), |unknowns| check_memory(unknowns, complex))?;
+        }
+        let unknowns = by_itself.then_some(unknowns.unwrap_or(automatic::DENSE));
         let setup = |method| setup(method, space, rule, n, tolerance);
         let method = method.map(setup).transpose()?;
         Ok(Self { tolerance, general: args.general || file.general, class, method, n, unknowns })
@@ -83,13 +84,13 @@ impl Settings {
     ) -> Result<Answer<'e, f64, T>, EquationError> {
         match &self.method {
             Some(setup) => methods::solve(equation, setup),
-            None => automatic::solve(equation, &self.automatic()),
+            None => T::solve(equation, &self.automatic()),
         }
     }
 
     fn automatic(&self) -> automatic::Options {
         let Self { tolerance, class, unknowns, .. } = *self;
-        automatic::Options { tolerance, class, unknowns: unknowns.unwrap_or(UNKNOWNS) }
+        automatic::Options { tolerance, class, unknowns: unknowns.unwrap_or(automatic::DENSE) }
     }
 
     /// Solves an equation in the plane.
@@ -98,7 +99,10 @@ impl Settings {
         equation: &'e PlaneEquation<'_, T>,
     ) -> Result<Answer<'e, [f64; 2], T>, EquationError> {
         let Self { tolerance, n, unknowns, .. } = *self;
-        plane::solve(equation, &plane::Options { tolerance, n, unknowns: unknowns.unwrap_or(UNKNOWNS) })
+        plane::solve(
+            equation,
+            &plane::Options { tolerance, n, unknowns: unknowns.unwrap_or(automatic::DENSE) },
+        )
     }
 }
 

@@ -29,7 +29,7 @@ pub(crate) struct Attempt<T: Scalar> {
 }
 
 /// What the estimate may be too small by, as the first term of a series.
-const SAFETY: f64 = 2.0;
+pub(super) const SAFETY: f64 = 2.0;
 
 /// A residual whose last coefficients are more than this part of it is not resolved at all: of a jump they are a third, of
 /// |x|^(1/2) a twelfth.
@@ -186,7 +186,10 @@ fn solved<T: Scalar>(bordered: &SecondKind<T>, f: &[T]) -> Vec<T> {
 }
 
 /// f at these t, component after component.
-fn sampled<T: Scalar>(product: &Product<'_, '_, T>, nodes: &[f64]) -> Result<Vec<T>, EquationError> {
+pub(super) fn sampled<T: Scalar>(
+    product: &Product<'_, '_, T>,
+    nodes: &[f64],
+) -> Result<Vec<T>, EquationError> {
     let equation = product.equation();
     let components = 0..equation.components();
     let points = components.flat_map(|a| nodes.iter().map(move |t| (a, product.change().point(*t))));

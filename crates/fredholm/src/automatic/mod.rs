@@ -10,9 +10,12 @@
 mod attempt;
 pub(crate) mod discrete;
 pub(crate) mod found;
+mod large;
 pub(crate) mod panels;
 mod periodic;
 mod singular;
+
+pub use large::solve_large;
 
 use crate::equation::{Alternative, Answer, Class, Equation, EquationError, Scalar, Status};
 use crate::product::{COARSE, Change, Product};
@@ -28,15 +31,18 @@ pub struct Options {
     pub tolerance: f64,
     /// The kernel's class, if it is known; otherwise it is found.
     pub class: Option<Class>,
-    /// The most unknowns. Memory is 56 bytes times their square, twice as many for complex numbers, and time grows with
-    /// their cube.
+    /// The most unknowns. In a matrix they take 56 bytes times their square, twice as many for complex numbers, and time that grows
+    /// with their cube; for more of them than [`DENSE`] there is [`solve_large`].
     pub unknowns: usize,
 }
 
+/// Unknowns of which a matrix takes some seconds and 500 MB.
+pub const DENSE: usize = 3000;
+
 impl Default for Options {
-    /// An error of 10⁻¹⁰, any class, and up to 3000 unknowns: some seconds and 500 MB.
+    /// An error of 10⁻¹⁰, any class, and up to [`DENSE`] unknowns.
     fn default() -> Self {
-        Self { tolerance: 1e-10, class: None, unknowns: 3000 }
+        Self { tolerance: 1e-10, class: None, unknowns: DENSE }
     }
 }
 

@@ -23,6 +23,11 @@ impl Panels {
         self.edges.len() - 1
     }
 
+    /// Where panels begin and end, ascending.
+    pub(crate) fn edges(&self) -> &[f64] {
+        &self.edges
+    }
+
     pub(crate) fn ends(&self, panel: usize) -> (f64, f64) {
         (self.edges[panel], self.edges[panel + 1])
     }

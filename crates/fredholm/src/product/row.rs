@@ -22,7 +22,8 @@ const DEPTH: u32 = 50;
 /// diagonal itself there may be 0/0; at an end of the half-line a peak of width 1 at x = 10⁶ is 10⁻¹² wide.
 const PROBE: f64 = 1e-13;
 
-/// Samples of a row after which its pieces are taken as they are, with their errors. A singularity within a peak takes 3000.
+/// Samples of halves of panels, in a row, after which pieces are taken as they are, with their errors. A singularity within a peak
+/// takes 3000.
 const BUDGET: usize = 100_000;
 
 /// A kernel as a function of t, seen from a fixed t.
@@ -173,6 +174,7 @@ impl<'k, T: Scalar> RowBuilder<'k, T> {
     fn halves(&mut self, (from, to): (f64, f64), above: f64, depth: u32) -> Result<Part<T>, EquationError> {
         let length = to - from;
         let tail = self.sample(from, to, &COARSE)?;
+        self.spent += self.tau.len();
         self.depth = self.depth.max(depth);
         let resolved = self.is_resolved(tail / PART, length);
         // Where halving does not help, it is noise that is left.
@@ -221,7 +223,6 @@ impl<'k, T: Scalar> RowBuilder<'k, T> {
         self.tau.extend(probes(from, to));
         self.values.resize(self.tau.len(), T::ZERO);
         self.sampler.sample(&self.tau, &mut self.values)?;
-        self.spent += self.tau.len();
         let mut seen = [T::ZERO; 3];
         let count = self.values.len() - rule.len();
         seen[..count].copy_from_slice(&self.values[rule.len()..]);

@@ -129,8 +129,9 @@ pub fn terrain(count: usize) -> Scene<Rgb> {
     )
 }
 
-/// `side` × `side` rooms of 5 m × 5 m × 3 m with a lamp each, open to their neighbours by doors in walls of 20 cm.
-pub fn building(side: usize) -> Scene<Rgb> {
+/// Storeys of `side` × `side` rooms of 5 m × 5 m × 3 m with a lamp each, open to their neighbours by doors in walls of 20 cm, and to those
+/// above and below by a stairwell in the middle, without floors and lamps.
+pub fn building(side: usize, storeys: usize) -> Scene<Rgb> {
     const ROOM: f64 = 5.0;
     const HEIGHT: f64 = 3.0;
     const WALL: f64 = 0.2;
@@ -138,13 +139,22 @@ pub fn building(side: usize) -> Scene<Rgb> {
     const TOP: f64 = 2.1;
     let (mut walls, mut lamps) = (Vec::new(), Vec::new());
     let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
-    for k in 0..side * side {
-        let cell = [k % side, k / side];
-        let low = DVec3::new(cell[0] as f64, cell[1] as f64, 0.0) * (ROOM + WALL);
+    for k in 0..side * side * storeys {
+        let (cell, storey) = ([k % side, k / side % side], k / (side * side));
+        let low = DVec3::new(cell[0] as f64, cell[1] as f64, 0.0) * (ROOM + WALL)
+            + storey as f64 * (HEIGHT + WALL) * z;
         let high = low + DVec3::new(ROOM, ROOM, HEIGHT);
-        walls.push(rectangle(low, x * ROOM, y * ROOM));
-        walls.push(rectangle(low + z * HEIGHT, y * ROOM, x * ROOM));
-        lamps.push(rectangle(low + DVec3::new(2.0, 2.0, HEIGHT - 0.05), y * 1.0, x * 1.0));
+        let is_stairs = cell == [side / 2; 2];
+        if storey == 0 || !is_stairs {
+            walls.push(rectangle(low, x * ROOM, y * ROOM));
+        }
+        if storey + 1 == storeys || !is_stairs {
+            walls.push(rectangle(low + z * HEIGHT, y * ROOM, x * ROOM));
+            lamps.push(rectangle(low + DVec3::new(2.0, 2.0, HEIGHT - 0.05), y * 1.0, x * 1.0));
+        } else {
+            let edges = hollow(low + z * HEIGHT, high + z * WALL);
+            walls.extend(edges.into_iter().filter(|edge| edge.normal().dot(z).abs() < 0.5));
+        }
         // Each wall from its corner along `u`, seen from the side of `inwards`.
         let mut wall = |corner: DVec3, u: DVec3, door: bool| {
             if !door {

@@ -1,0 +1,337 @@
+//! Very many panels: F in blocks of low rank, GMRES on it, and the error from the residual between the nodes (paper, §1.1.3).
+//!
+//! Panels are cut where f is not resolved, before anything is solved, and then where φ_n is not. The residual is asked for at
+//! places that no panel chose, by rules that are good to rounding there: so what the blocks leave out is in it, and what GMRES
+//! left, and what a kernel does that panels are too long for.
+
+use super::attempt::{SAFETY, largest, sampled};
+use super::found::PanelFunction;
+use super::panels::Panels;
+use super::{DENSE, Options, solve};
+use crate::discretize::ProductNystrom;
+use crate::equation::{Answer, Equation, EquationError, Status};
+use crate::krylov::Gmres;
+use crate::memory;
+use crate::operator::hierarchical::{self, Hierarchical, HierarchicalError, Plan};
+use crate::operator::{Columns, Line, Matrix, Operator, Rows};
+use crate::product::{COARSE, POINTS, Product};
+use crate::relax::{Outcome, Relaxation, Stop, relax};
+use crate::second_kind::norm_estimate;
+use crate::system::System;
+use crate::value::Value;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// As [`solve`]; where more unknowns are allowed than [`DENSE`] and it takes more, a real equation on a finite interval is solved
+/// with F in blocks of low rank: memory and time grow like n log n, a million unknowns take some 4 GB. Whether I − A is singular
+/// is examined only as far as [`solve`] does.
+///
+/// # Errors
+///
+/// As [`solve`]; [`EquationError::Method`] where F takes more memory than there is, or where I − A cannot be told from a singular
+/// operator.
+pub fn solve_large<'e>(
+    equation: &'e Equation<'_, f64>,
+    options: &Options,
+) -> Result<Answer<'e, f64, f64>, EquationError> {
+    if options.unknowns <= DENSE || equation.components() > 1 || !equation.interval().is_finite() {
+        return solve(equation, options);
+    }
+    let product = Product::new(equation, options.class)?;
+    let most = options.unknowns.min((memory::limit() / LEAST_BYTES) as usize) / POINTS;
+    let mut panels = resolving(&product, most, options.tolerance)?;
+    let mut best = None;
+    if panels.len() * POINTS <= DENSE {
+        let answer = solve(equation, &Options { unknowns: DENSE, ..*options })?;
+        if answer.status != Status::ToleranceNotMet {
+            return Ok(answer);
+        }
+        best = Some(answer);
+    }
+    while panels.len() <= most {
+        let attempt = match Attempt::new(&product, &panels, options.tolerance) {
+            Ok(attempt) => attempt,
+            // What was found before is kept where the next takes too much memory; a kernel that is infinite somewhere is told.
+            Err(EquationError::Method(_)) if best.is_some() => break,
+            Err(error) => return Err(error),
+        };
+        let (met, finer) = (attempt.meets(options.tolerance), attempt.cut(&panels, options.tolerance));
+        if best.as_ref().is_none_or(|best| attempt.error < best.error_estimate) {
+            best = Some(attempt.answer(&product, panels, options.tolerance));
+        }
+        if met {
+            break;
+        }
+        panels = finer;
+    }
+    best.ok_or_else(|| {
+        EquationError::Method(format!(
+            "the source alone takes more than {} unknowns: allow more of them, where there is memory, or take a larger tolerance",
+            most * POINTS
+        ))
+    })
+}
+
+/// Bytes that an unknown takes, at least: in blocks it takes some thousands.
+const LEAST_BYTES: u64 = 2000;
+
+/// Places on a panel, from −1 to 1, where the source is looked at between the nodes: where a polynomial through these misses most,
+/// near the ends, and in the middle.
+const LOOKS: [f64; 3] = [-0.995, 0.05, 0.995];
+
+/// A panel of this part of the interval is not cut for the source's sake: it is singular there.
+const SHORTEST: f64 = 1e-14;
+
+/// The part of what is allowed that may be left unresolved on a panel.
+const PART: f64 = 0.1;
+
+/// Panels on which the source is resolved, but not more than `most`, of which there are one too many then.
+fn resolving(product: &Product<'_, '_, f64>, most: usize, tolerance: f64) -> Result<Panels, EquationError> {
+    let mut panels = Panels::equal(product.change().range(), 1);
+    loop {
+        let f = sampled(product, &panels.nodes(&COARSE))?;
+        let allowed = PART * tolerance * largest(&f);
+        let is_cut = |(panel, missed): (usize, f64)| missed > allowed && panels.share(panel) > SHORTEST;
+        let cut: Vec<bool> = missed(product, &panels, &f).into_iter().enumerate().map(is_cut).collect();
+        if panels.len() > most || !cut.contains(&true) {
+            return Ok(panels);
+        }
+        panels = panels.cut(|panel| if cut[panel] { 2 } else { 1 });
+    }
+}
+
+/// By panel, how far the source is from its polynomial between the nodes, beyond rounding.
+fn missed(product: &Product<'_, '_, f64>, panels: &Panels, f: &[f64]) -> Vec<f64> {
+    let on = |panel: usize| {
+        let part = &f[panel * POINTS..][..POINTS];
+        let (low, high) = panels.ends(panel);
+        let at = |xi: &f64| {
+            let x = 0.5 * ((high + low) + (high - low) * xi);
+            (product.equation().source(0, x) - COARSE.interpolate(part, *xi)).abs()
+        };
+        (largest(&LOOKS.map(|xi| at(&xi))) - ROUNDING * largest(part)).max(0.0)
+    };
+    (0..panels.len()).into_par_iter().map(on).collect()
+}
+
+/// What evaluating a function and its interpolant leaves, as a part of it.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// ‖F − F̃‖ and the residual of GMRES, as parts of the tolerance; and the residual for norms, which need not be known well.
+const KEPT: f64 = 0.1;
+const SOLVED: f64 = 0.01;
+const ROUGHLY: f64 = 0.01;
+
+/// The most steps of GMRES.
+const STEPS: usize = 500;
+
+/// Places where the residual is asked for: at each the kernel is asked for on all panels.
+const PLACES: usize = 128;
+
+/// Two of them are next to the ends, on the last panel's way from −1 to 1.
+const NEXT: f64 = 0.9999;
+
+/// The most halvings of a panel at an end at once.
+const HALVINGS: f64 = 24.0;
+
+/// From this condition on a matrix cannot be told from a singular one.
+const SINGULAR: f64 = 1e13;
+
+/// The solution on given panels, judged.
+struct Attempt {
+    values: Vec<f64>,
+    error: f64,
+    scale: f64,
+    condition: f64,
+    inverse_norm: f64,
+    /// What is left unresolved of f and of A φ_n, by panel.
+    tails: Vec<f64>,
+}
+
+impl Attempt {
+    fn new(product: &Product<'_, '_, f64>, panels: &Panels, tolerance: f64) -> Result<Self, EquationError> {
+        let class = product.class(0, 0);
+        let coupling = ProductNystrom::new(product.equation(), panels.edges().to_vec(), Some(class))?;
+        let points: Vec<[f64; 1]> = coupling.nodes().iter().map(|x| [*x]).collect();
+        let told = |error| explained(error, coupling.nodes());
+        let kept = (KEPT * tolerance).clamp(1e-14, 1e-4);
+        let options = hierarchical::Options { tolerance: kept, ..Default::default() };
+        let plan = Plan::new(&coupling, &points, options).map_err(told)?;
+        let operator = plan.assemble(|_| ()).map_err(told)?;
+
+        let transposed = Transposed(&operator);
+        let norm = norm_estimate(points.len(), |u| applied(&transposed, u), |u| applied(&operator, u));
+        let inverse_norm = norm_estimate(
+            points.len(),
+            |u| solved(&transposed, u, ROUGHLY),
+            |u| solved(&operator, u, ROUGHLY),
+        );
+        let condition = (1.0 + norm) * inverse_norm;
+        // NaN is where GMRES finds no solution.
+        if condition.is_nan() || condition > SINGULAR {
+            return Err(EquationError::Method(format!(
+                "I − A cannot be told from a singular operator with {} unknowns (condition {condition:.0e}): the equation has no \
+                 solution or many; which, is told of sources that {DENSE} unknowns resolve",
+                points.len()
+            )));
+        }
+        let source = sampled(product, coupling.nodes())?;
+        let values = solved(&operator, &source, SOLVED * tolerance / inverse_norm.max(1.0));
+        let scale = largest(&values);
+        let mut tails = missed(product, panels, &source);
+        let images: Vec<f64> = values.iter().zip(&source).map(|(value, f)| value - f).collect();
+        let unresolved = images.chunks(POINTS).map(|part| COARSE.unresolved(part));
+        tails.iter_mut().zip(unresolved).for_each(|(tail, unresolved)| *tail += unresolved);
+        let residual = Residual::new(product, panels, &values)?;
+        let unseen = largest(&tails);
+        for (end, at_end) in [0, panels.len() - 1].into_iter().zip(residual.at_ends) {
+            // Where φ is as x ln x, the last coefficients tell less than what they leave out comes to next to an end.
+            if at_end > SAFETY * residual.inside {
+                tails[end] = tails[end].max(at_end);
+            }
+        }
+        let rounding = 2.0 * f64::EPSILON * (1.0 + norm) + residual.rule;
+        let error = inverse_norm.max(1.0) * (SAFETY * residual.largest() + unseen + rounding * scale);
+        let error = if error.is_nan() { f64::INFINITY } else { error };
+        Ok(Self { values, error, scale, condition, inverse_norm, tails })
+    }
+
+    fn meets(&self, tolerance: f64) -> bool {
+        self.error <= tolerance * self.scale || self.error == 0.0
+    }
+
+    /// Panels cut where φ_n is not resolved; all where it is, and the residual says that something else is not.
+    fn cut(&self, panels: &Panels, tolerance: f64) -> Panels {
+        let allowed = PART * tolerance * self.scale / self.inverse_norm.max(1.0);
+        let is_cut = |panel: usize| self.tails[panel] > allowed;
+        let last = panels.len() - 1;
+        if !(0..=last).any(is_cut) {
+            return panels.cut(|_| 2);
+        }
+        // Next to an end, where φ may be as x ln x, what is missed falls as the last panel's length does.
+        let halvings =
+            [0, last].map(|end| (self.tails[end] / allowed).log2().ceil().clamp(0.0, HALVINGS) as usize);
+        let mut finer = panels.cut(|panel| if is_cut(panel) { 2 } else { 1 });
+        for round in 1..*halvings.iter().max().unwrap_or(&0) {
+            let last = finer.len() - 1;
+            let ends = [(0, halvings[0]), (last, halvings[1])];
+            finer = finer.cut(|panel| {
+                if ends.iter().any(|(end, count)| panel == *end && round < *count) { 2 } else { 1 }
+            });
+        }
+        finer
+    }
+
+    fn answer<'e>(
+        self,
+        product: &Product<'_, '_, f64>,
+        panels: Panels,
+        tolerance: f64,
+    ) -> Answer<'e, f64, f64> {
+        let met = self.meets(tolerance);
+        Answer {
+            status: if met { Status::Converged } else { Status::ToleranceNotMet },
+            method: format!(
+                "automatic: collocation on {} panels of degree 15, in blocks of low rank",
+                panels.len()
+            ),
+            class: Some(product.worst_class()),
+            unknowns: self.values.len(),
+            error_estimate: self.error,
+            condition: self.condition,
+            solution: PanelFunction::new(product, &Arc::new(panels), self.values).function(),
+            alternative: None,
+        }
+    }
+}
+
+/// The residual between the nodes.
+struct Residual {
+    /// |f + A φ_n − φ_n| at its largest, but not next to the ends.
+    inside: f64,
+    /// Next to either end.
+    at_ends: [f64; 2],
+    /// What the rules leave out of ∫ K g with |g| ≤ 1.
+    rule: f64,
+}
+
+impl Residual {
+    fn new(product: &Product<'_, '_, f64>, panels: &Panels, values: &[f64]) -> Result<Self, EquationError> {
+        const GOLDEN: f64 = 0.618_033_988_749_895;
+        let at = |(panel, xi): (usize, f64)| -> Result<[f64; 2], EquationError> {
+            let (low, high) = panels.ends(panel);
+            let x = 0.5 * ((high + low) + (high - low) * xi);
+            let row = product.row((0, 0), x, panels.edges())?;
+            let image: f64 = row.weights.iter().zip(values).map(|(weight, value)| weight * value).sum();
+            let phi = COARSE.interpolate(&values[panel * POINTS..][..POINTS], xi);
+            Ok([(product.equation().source(0, x) + image - phi).abs(), row.error])
+        };
+        let place = |k: usize| match k {
+            0 => (0, -NEXT),
+            1 => (panels.len() - 1, NEXT),
+            _ => ((2 * k + 1) * panels.len() / (2 * PLACES), 2.0 * (0.5 + GOLDEN * k as f64).fract() - 1.0),
+        };
+        let all = (0..PLACES).into_par_iter().map(|k| at(place(k))).collect::<Result<Vec<_>, _>>()?;
+        let (residuals, rules): (Vec<f64>, Vec<f64>) = all.into_iter().map(|[r, rule]| (r, rule)).unzip();
+        Ok(Self {
+            inside: largest(&residuals[2..]),
+            at_ends: [residuals[0], residuals[1]],
+            rule: largest(&rules),
+        })
+    }
+
+    fn largest(&self) -> f64 {
+        largest(&[self.inside, self.at_ends[0], self.at_ends[1]])
+    }
+}
+
+/// u with (I − F) u = f, to a residual of such a part of f; NaN where GMRES does not find it.
+fn solved(operator: &impl Operator<f64>, f: &[f64], part: f64) -> Vec<f64> {
+    let ones = vec![1.0; f.len()];
+    let system = System { source: f, coefficient: &ones, operator };
+    let mut gmres = Gmres::new(system);
+    let stop = Stop { residual: part.max(4.0 * f64::EPSILON) * largest(f), sweeps: STEPS };
+    match relax(&mut gmres, stop, |_, _, _| true).outcome {
+        Outcome::Converged | Outcome::Stalled => gmres.solution(),
+        _ => vec![f64::NAN; f.len()],
+    }
+}
+
+fn applied(operator: &impl Operator<f64>, u: &[f64]) -> Vec<f64> {
+    let mut image = vec![0.0; u.len()];
+    operator.apply(u, &mut image);
+    image
+}
+
+/// Fᵀ.
+struct Transposed<'a>(&'a Hierarchical);
+
+impl Matrix for Transposed<'_> {
+    fn dim(&self) -> usize {
+        self.0.dim()
+    }
+    fn diagonal(&self, i: usize) -> f64 {
+        self.0.diagonal(i)
+    }
+}
+
+impl Rows for Transposed<'_> {
+    fn row<'a>(&'a self, i: usize, buffer: &'a mut Vec<f64>) -> Line<'a> {
+        self.0.column(i, buffer)
+    }
+    fn act<V: Value>(&self, u: &[V], out: &mut [V]) {
+        self.0.act_transposed(u, out);
+    }
+}
+
+/// An error of the operator as one of the equation.
+fn explained(error: HierarchicalError, nodes: &[f64]) -> EquationError {
+    match error {
+        HierarchicalError::Entry(entry) => EquationError::KernelNotFinite {
+            x: nodes[entry.row],
+            y: nodes[entry.column],
+            value: entry.value.to_string(),
+        },
+        other => EquationError::Method(other.to_string()),
+    }
+}
