@@ -138,6 +138,10 @@ fn a_checkpoint_that_is_none_or_another_is_refused() {
     fs::write(folder.join("empty.links"), "").unwrap();
     refused("empty.links", "no checkpoint of fredholm");
     refused("missing.links", "missing.links");
+    let output = fredholm(&folder, &format!("{LINKED} --checkpoint text.links"));
+    let told = text(&output.stderr);
+    assert!(output.status.code() == Some(1) && told.contains("text.links: there is a file"), "{told}");
+    assert_eq!(fs::read(folder.join("text.links")).unwrap(), b"no links at all");
     let output = fredholm(&folder, "radiosity --operator dense --links a.svg");
     assert!(text(&output.stderr).contains("--links"), "{}", text(&output.stderr));
     let output = fredholm(&folder, "radiosity --operator dense --checkpoint a.links");

@@ -1,9 +1,9 @@
 //! Very many patches: time, memory, links and error of the hierarchical operator on four scenes, and the matrix beside it.
 //!
-//! `cargo bench -p radiosity --bench hierarchical [-- PATCHES … SCENE … ACCURACY reference]`: 1 000, 10 000 and 100 000 if none are given,
+//! `cargo bench -p radiosity --bench hierarchical [-- PATCHES … SCENE … ACCURACY reference finer]`: 1 000, 10 000 and 100 000 if none are given,
 //! all four scenes, and an accuracy of factors of 0.001; a million take some minutes each. Times are of the whole: clusters, sketch, links,
 //! GMRES, and the estimate of the error. With `reference` light is held against a finer one: where faces are few the adaptive answer to
-//! 0.5 %, else links of a third of the accuracy.
+//! 0.5 %, else links of a third of the accuracy; with `finer` against four times as many patches, of all light.
 
 #![expect(clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark prints what it measures")]
 
@@ -16,6 +16,7 @@ use radiosity::reconstruct::Lit;
 use radiosity::scene::{Scene, cornell_box};
 use radiosity::solve::{Options, Solution, Solver, Storage, Unobserved, solve};
 use radiosity::visibility::Visibility;
+use rayon::prelude::*;
 use std::time::Instant;
 
 /// Up to so many patches there is a matrix beside the links.
@@ -28,7 +29,8 @@ fn main() {
     let named = |name: &&str| words.iter().any(|word| word == name);
     let names = ["Cornell box", "boxes", "terrain", "building", "storeys"];
     let accuracy = words.iter().filter_map(|word| word.parse().ok()).find(|a| *a < 1.0).unwrap_or(1e-3);
-    let asked = Asked { accuracy, reference: words.iter().any(|word| word == "reference") };
+    let is_asked = |word: &str| words.iter().any(|said| said == word);
+    let asked = Asked { accuracy, reference: is_asked("reference"), finer: is_asked("finer") };
     println!("{} threads, --factor-accuracy {accuracy}", rayon::current_num_threads());
     for name in names.iter().filter(|name| named(name) || !names.iter().any(named)) {
         println!(
@@ -60,6 +62,8 @@ struct Asked {
     accuracy: f64,
     /// Whether light is held against a finer one.
     reference: bool,
+    /// Whether against that of finer patches.
+    finer: bool,
 }
 
 /// Patches of a room of the building.
@@ -109,6 +113,9 @@ fn line(scene: &Scene<Rgb>, count: usize, asked: &Asked) -> [f64; 2] {
     if asked.reference {
         let [told, off] = reference(scene, (&patches, &visibility), &linked, asked.accuracy);
         print!(" {:>8.2}% {:>8.2}%", 100.0 * told, 100.0 * off);
+    }
+    if asked.finer {
+        print!(" off from finer patches: {:.2}%", 100.0 * finer(scene, &patches, &linked, asked.accuracy));
     }
     println!();
     [n, seconds]
@@ -169,4 +176,26 @@ fn reference(
     let whole = norm(patches, &all, |i| linked.radiosity[i]);
     let without = norm(patches, &all, |i| linked.radiosity[i] - patches.emission[i]);
     [linked.links.as_ref().unwrap().judged.error * whole / without, off / reflected]
+}
+
+/// How many times more patches there are in the finer answer: each of one is four of the other.
+const FINER_PATCHES: usize = 4;
+
+/// How far light is from that of finer patches, as a part of all: the difference of means, and what varies within the finer ones.
+fn finer(scene: &Scene<Rgb>, patches: &Patches<Rgb>, linked: &Solution<Rgb>, accuracy: f64) -> f64 {
+    let fine = Patches::new(scene, size_for_count(scene, FINER_PATCHES * patches.len())).unwrap();
+    let solution = solved(&fine, &Visibility::new(&scene.polygons()), Storage::Hierarchical, accuracy).0;
+    let mut of_face = vec![Vec::new(); scene.polygons().len()];
+    patches.face_of_each().iter().enumerate().for_each(|(i, face)| of_face[*face as usize].push(i));
+    let on = fine.face_of_each();
+    let off = |k: usize| {
+        let x = fine.polygons[k].centroid();
+        let distance = |i: &usize| patches.polygons[*i].centroid().distance_squared(x);
+        let here = of_face[on[k] as usize].iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap();
+        fine.areas[k] * (linked.radiosity[*here] - solution.radiosity[k]).square()
+    };
+    let square: f64 = (0..fine.len()).into_par_iter().map(off).sum();
+    let all: Vec<usize> = (0..fine.len()).collect();
+    let whole = norm(&fine, &all, |k| solution.radiosity[k]);
+    (square.sqrt() / whole).hypot(solution.links.unwrap().judged.patches)
 }

@@ -46,7 +46,7 @@ fn links_bring_what_the_matrix_brings_within_the_error_that_they_tell() {
         (cornell_box(), 1000),
         (scenes::boxes(), 1500),
         (scenes::terrain(1000), 1000),
-        (scenes::building(2), 1000),
+        (scenes::building(2, 1), 1000),
     ] {
         let (patches, visibility) = cut(&scene, count);
         // The matrix has an error of its own: sampled rows, of which each errs by so much.
@@ -101,7 +101,7 @@ fn rows_columns_and_both_actions_are_of_one_matrix() {
 
 #[test]
 fn the_same_digits_come_from_any_number_of_threads() {
-    let (patches, visibility) = cut(&scenes::building(2), 1000);
+    let (patches, visibility) = cut(&scenes::building(2, 1), 1000);
     let sums = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
@@ -171,7 +171,7 @@ impl<V: Value> Shoot<V> for Counted<'_, V> {
 
 #[test]
 fn gathering_and_shooting_by_links_solve_what_the_action_does() {
-    for scene in [cornell_box(), scenes::building(2)] {
+    for scene in [cornell_box(), scenes::building(2, 1)] {
         let (patches, visibility) = cut(&scene, 1500);
         let operator = linked(&patches, &visibility, 0.1);
         let links = NoLines(&operator, AtomicU64::new(0));
@@ -218,7 +218,7 @@ fn gathering_and_shooting_by_links_solve_what_the_action_does() {
 
 #[test]
 fn in_an_empty_room_rows_add_up_to_one_without_a_ray() {
-    let mut scene = scenes::building(1);
+    let mut scene = scenes::building(1, 1);
     scene.surfaces.truncate(1);
     scene.surfaces[0].emission = Rgb::splat(1.0);
     let (patches, visibility) = cut(&scene, 3000);
@@ -236,7 +236,7 @@ fn in_an_empty_room_rows_add_up_to_one_without_a_ray() {
 
 #[test]
 fn four_times_the_patches_have_little_more_than_four_times_the_links() {
-    for scene in [cornell_box(), scenes::building(2)] {
+    for scene in [cornell_box(), scenes::building(2, 1)] {
         let links = |count: usize| {
             let (patches, visibility) = cut(&scene, count);
             linked(&patches, &visibility, 0.3).statistics().links as f64 / patches.len() as f64
@@ -274,13 +274,13 @@ fn a_picture_shows_who_gathers_from_what() {
         [all, some]
     };
     // In an empty cube a wall sees the other five, and all of each; where two meet a receiver has patches of both.
-    let mut empty = scenes::building(1);
+    let mut empty = scenes::building(1, 1);
     empty.surfaces.truncate(1);
     empty.surfaces[0].emission = Rgb::splat(1.0);
     let [all, some] = pictured(&empty, 600);
     assert!((0.6..0.84).contains(&all) && some < 0.25, "{all} and {some}");
     // Through doors some patches of a receiver see what others do not.
-    let [all, some] = pictured(&scenes::building(2), 3000);
+    let [all, some] = pictured(&scenes::building(2, 1), 3000);
     assert!(some > all, "{all} and {some}");
 }
 

@@ -4,7 +4,7 @@ use super::args::Radiosity;
 use crate::ending::Ending;
 use crate::output::{Output, clear_on_interrupt, end_on_interrupt, stop_on_interrupt};
 use crate::terminal::warn;
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use radiosity::hierarchical::Kept;
 use std::fs::File;
 use std::path::Path;
@@ -18,12 +18,18 @@ pub struct Checkpoint {
 }
 
 impl Checkpoint {
-    /// Listens for interrupts from now on, and makes sure that the file can be written.
+    /// Listens for interrupts from now on, and makes sure that the file can be written and replaces nothing but a checkpoint.
     pub fn prepare(args: &Radiosity) -> Result<Self> {
         let Some(path) = &args.checkpoint else {
             clear_on_interrupt()?;
             return Ok(Self { output: None, stopped: None });
         };
+        if path.is_file() && !Kept::is_in(&mut open(path)?)? {
+            bail!(
+                "{}: there is a file of this name that is no checkpoint: give --checkpoint another",
+                path.display()
+            );
+        }
         Ok(Self { output: Some(Output::prepare(path)?), stopped: Some(stop_on_interrupt()?) })
     }
 

@@ -9,7 +9,7 @@ use super::found::PanelFunction;
 use super::panels::Panels;
 use super::{DENSE, Options, solve};
 use crate::discretize::ProductNystrom;
-use crate::equation::{Answer, Equation, EquationError, Status};
+use crate::equation::{Answer, Class, Equation, EquationError, Status};
 use crate::krylov::Gmres;
 use crate::memory;
 use crate::operator::hierarchical::{self, Hierarchical, HierarchicalError, Plan};
@@ -39,30 +39,28 @@ pub fn solve_large<'e>(
     }
     let product = Product::new(equation, options.class)?;
     let most = options.unknowns.min((memory::limit() / LEAST_BYTES) as usize) / POINTS;
-    let mut panels = resolving(&product, most, options.tolerance)?;
-    let mut best = None;
-    if panels.len() * POINTS <= DENSE {
-        let answer = solve(equation, &Options { unknowns: DENSE, ..*options })?;
-        if answer.status != Status::ToleranceNotMet {
-            return Ok(answer);
-        }
-        best = Some(answer);
-    }
-    while panels.len() <= most {
-        let attempt = match Attempt::new(&product, &panels, options.tolerance) {
-            Ok(attempt) => attempt,
-            // What was found before is kept where the next takes too much memory; a kernel that is infinite somewhere is told.
-            Err(EquationError::Method(_)) if best.is_some() => break,
-            Err(error) => return Err(error),
-        };
-        let (met, finer) = (attempt.meets(options.tolerance), attempt.cut(&panels, options.tolerance));
-        if best.as_ref().is_none_or(|best| attempt.error < best.error_estimate) {
-            best = Some(attempt.answer(&product, panels, options.tolerance));
-        }
-        if met {
+    let resolving = resolving(&product, most, options.tolerance)?;
+    let within = |unknowns| match resolving.len() * POINTS <= unknowns {
+        true => solve(equation, &Options { unknowns, ..*options }).map(Some),
+        false => Ok(None),
+    };
+    let has_verdict = |answer: &Answer<'_, f64, f64>| answer.status != Status::ToleranceNotMet;
+    let mut best = within(FEW)?;
+    // A matrix may do with fewer panels than blocks, as its residual is known on each.
+    let others: [&dyn Fn() -> Found<'e>; 2] =
+        [&|| in_blocks(&product, &resolving, most, options), &|| within(DENSE)];
+    for other in others {
+        if best.as_ref().is_some_and(has_verdict) {
             break;
         }
-        panels = finer;
+        let better = |other: &Answer<'_, f64, f64>| {
+            best.as_ref().is_none_or(|best| has_verdict(other) || other.error_estimate < best.error_estimate)
+        };
+        match other() {
+            // Too much memory for the next is no reason to lose what there is.
+            Err(EquationError::Method(_)) if best.is_some() => {}
+            found => best = found?.filter(better).or(best),
+        }
     }
     best.ok_or_else(|| {
         EquationError::Method(format!(
@@ -70,6 +68,47 @@ pub fn solve_large<'e>(
             most * POINTS
         ))
     })
+}
+
+type Found<'e> = Result<Option<Answer<'e, f64, f64>>, EquationError>;
+
+/// Unknowns of which a matrix takes less time than blocks do.
+const FEW: usize = 1000;
+
+/// The first answer that meets the tolerance, or the best one, of panels that are cut until they are more than `most`; none if they
+/// are from the start.
+fn in_blocks<'e>(
+    product: &Product<'_, '_, f64>,
+    resolving: &Panels,
+    most: usize,
+    options: &Options,
+) -> Found<'e> {
+    let tolerance = options.tolerance;
+    let mut panels = resolving.clone();
+    if matches!(product.class(0, 0), Class::Logarithmic | Class::Algebraic { .. }) {
+        // φ is as singular at the ends as x ln x, and worse.
+        let shortest = (PART * tolerance).max(SHORTEST);
+        let halvings = |panel: usize| (panels.share(panel) / shortest).log2().ceil().max(0.0) as usize;
+        panels = towards_ends(&panels, [halvings(0), halvings(panels.len() - 1)]);
+    }
+    let mut best: Option<Answer<'e, f64, f64>> = None;
+    while panels.len() <= most {
+        let attempt = match Attempt::new(product, &panels, tolerance) {
+            Ok(attempt) => attempt,
+            // What was found before is kept where the next takes too much memory; a kernel that is infinite somewhere is told.
+            Err(EquationError::Method(_)) if best.is_some() => break,
+            Err(error) => return Err(error),
+        };
+        let (met, finer) = (attempt.meets(tolerance), attempt.cut(&panels, tolerance));
+        if best.as_ref().is_none_or(|best| attempt.error < best.error_estimate) {
+            best = Some(attempt.answer(product, panels, tolerance));
+        }
+        if met {
+            break;
+        }
+        panels = finer;
+    }
+    Ok(best)
 }
 
 /// Bytes that an unknown takes, at least: in blocks it takes some thousands.
@@ -211,15 +250,8 @@ impl Attempt {
         // Next to an end, where φ may be as x ln x, what is missed falls as the last panel's length does.
         let halvings =
             [0, last].map(|end| (self.tails[end] / allowed).log2().ceil().clamp(0.0, HALVINGS) as usize);
-        let mut finer = panels.cut(|panel| if is_cut(panel) { 2 } else { 1 });
-        for round in 1..*halvings.iter().max().unwrap_or(&0) {
-            let last = finer.len() - 1;
-            let ends = [(0, halvings[0]), (last, halvings[1])];
-            finer = finer.cut(|panel| {
-                if ends.iter().any(|(end, count)| panel == *end && round < *count) { 2 } else { 1 }
-            });
-        }
-        finer
+        let inside = panels.cut(|panel| if panel > 0 && panel < last && is_cut(panel) { 2 } else { 1 });
+        towards_ends(&inside, halvings)
     }
 
     fn answer<'e>(
@@ -283,6 +315,17 @@ impl Residual {
     fn largest(&self) -> f64 {
         largest(&[self.inside, self.at_ends[0], self.at_ends[1]])
     }
+}
+
+/// The first and the last panel halved so many times towards the ends.
+fn towards_ends(panels: &Panels, halvings: [usize; 2]) -> Panels {
+    let mut finer = panels.clone();
+    for round in 0..halvings[0].max(halvings[1]) {
+        let last = finer.len() - 1;
+        let is_cut = |panel| panel == 0 && round < halvings[0] || panel == last && round < halvings[1];
+        finer = finer.cut(|panel| if is_cut(panel) { 2 } else { 1 });
+    }
+    finer
 }
 
 /// u with (I − F) u = f, to a residual of such a part of f; NaN where GMRES does not find it.

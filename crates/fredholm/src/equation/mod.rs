@@ -171,7 +171,11 @@ pub enum EquationError {
         value: String,
     },
     /// The kernel is infinite or NaN at points of the plane where it was sampled.
-    #[error("the kernel is {value} at (x, y) = ({}, {}), (s, t) = ({}, {})", .p[0], .p[1], .q[0], .q[1])]
+    #[error(
+        "the kernel is {value} at (x, y) = ({}, {}), (s, t) = ({}, {}): in the plane only kernels are integrated that are finite \
+         everywhere",
+        .p[0], .p[1], .q[0], .q[1]
+    )]
     PlaneKernelNotFinite {
         /// Where.
         p: [f64; 2],

@@ -63,6 +63,13 @@ impl Kept {
         self.regions.iter().flat_map(Blocks::iter).map(|block| block.patches()).sum()
     }
 
+    /// Whether a file is of links, from its first bytes.
+    pub fn is_in(input: &mut impl Read) -> io::Result<bool> {
+        let mut start = Vec::new();
+        input.take(MAGIC.len() as u64).read_to_end(&mut start)?;
+        Ok(start == MAGIC)
+    }
+
     /// Writes the file.
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         let mut out = Checked { inner: out, crc: crc32fast::Hasher::new() };
