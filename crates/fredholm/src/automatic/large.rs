@@ -207,10 +207,11 @@ impl Attempt {
         );
         let condition = (1.0 + norm) * inverse_norm;
         // NaN is where GMRES finds no solution.
-        if condition.is_nan() || condition > SINGULAR {
+        let condition = if condition.is_nan() { f64::INFINITY } else { condition };
+        if condition > SINGULAR {
             return Err(EquationError::Method(format!(
                 "I − A cannot be told from a singular operator with {} unknowns (condition {condition:.0e}): the equation has no \
-                 solution or many; which, is told of sources that {DENSE} unknowns resolve",
+                 solution or many, and which of both is told only where {DENSE} unknowns resolve the source",
                 points.len()
             )));
         }
