@@ -3,6 +3,7 @@
 use expression::{Column, Formula};
 use fredholm::automatic::{self, Options};
 use fredholm::equation::{Answer, Complex64, Equation, EquationError, Scalar};
+use fredholm::plane::{self, PlaneEquation};
 use serde::{Serialize, Serializer};
 
 /// A scalar that a formula can be evaluated in.
@@ -22,6 +23,14 @@ pub trait FormulaValue: Scalar {
         options: &Options,
     ) -> Result<Answer<'e, f64, Self>, EquationError> {
         automatic::solve(equation, options)
+    }
+
+    /// The same in the plane.
+    fn solve_in_plane<'e, 'a>(
+        equation: &'e PlaneEquation<'a, Self>,
+        options: &plane::Options,
+    ) -> Result<Answer<'e, [f64; 2], Self>, EquationError> {
+        plane::solve(equation, options)
     }
 }
 
@@ -43,6 +52,13 @@ impl FormulaValue for f64 {
         options: &Options,
     ) -> Result<Answer<'e, f64, Self>, EquationError> {
         automatic::solve_large(equation, options)
+    }
+
+    fn solve_in_plane<'e, 'a>(
+        equation: &'e PlaneEquation<'a, Self>,
+        options: &plane::Options,
+    ) -> Result<Answer<'e, [f64; 2], Self>, EquationError> {
+        plane::solve_large(equation, options)
     }
 }
 

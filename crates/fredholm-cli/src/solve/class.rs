@@ -46,7 +46,10 @@ pub fn name(class: Class) -> String {
         Class::Kink => "kink".to_owned(),
         Class::Jump => "jump".to_owned(),
         Class::Logarithmic => "logarithmic".to_owned(),
-        Class::Algebraic { exponent } => format!("algebraic:{exponent}"),
+        Class::Algebraic { exponent } => {
+            // One that is found is known to six digits, of which nobody needs all.
+            format!("algebraic:{}", (1e4 * exponent).round() / 1e4)
+        }
     }
 }
 

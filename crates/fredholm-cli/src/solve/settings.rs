@@ -66,12 +66,17 @@ impl Settings {
         }
         let by_itself = matches!(domain, Domain::Plane(_)) || method.is_none();
         let complex = problem.is_complex();
-        let in_blocks = matches!(domain, Domain::Line(interval) if interval.is_finite() && problem.components() == 1 && !complex);
+        let in_blocks = !complex
+            && match domain {
+                Domain::Line(interval) => interval.is_finite() && problem.components() == 1,
+                Domain::Plane(_) => true,
+            };
         if !in_blocks {
             // What nobody asks for is hardly ever taken.
             unknowns.map_or(Ok(()), |unknowns| check_memory(unknowns, complex))?;
         }
-        let unknowns = by_itself.then_some(unknowns.unwrap_or(automatic::DENSE));
+        let dense = if let Domain::Plane(_) = domain { plane::DENSE } else { automatic::DENSE };
+        let unknowns = by_itself.then_some(unknowns.unwrap_or(dense));
         let setup = |method| setup(method, space, rule, n, tolerance);
         let method = method.map(setup).transpose()?;
         Ok(Self { tolerance, general: args.general || file.general, class, method, n, unknowns })
@@ -99,9 +104,9 @@ impl Settings {
         equation: &'e PlaneEquation<'_, T>,
     ) -> Result<Answer<'e, [f64; 2], T>, EquationError> {
         let Self { tolerance, n, unknowns, .. } = *self;
-        plane::solve(
+        T::solve_in_plane(
             equation,
-            &plane::Options { tolerance, n, unknowns: unknowns.unwrap_or(automatic::DENSE) },
+            &plane::Options { tolerance, n, unknowns: unknowns.unwrap_or(plane::DENSE) },
         )
     }
 }

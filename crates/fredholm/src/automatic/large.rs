@@ -10,15 +10,10 @@ use super::panels::Panels;
 use super::{DENSE, Options, solve};
 use crate::discretize::ProductNystrom;
 use crate::equation::{Answer, Class, Equation, EquationError, Status};
-use crate::krylov::Gmres;
 use crate::memory;
-use crate::operator::hierarchical::{self, Hierarchical, HierarchicalError, Plan};
-use crate::operator::{Columns, Line, Matrix, Operator, Rows};
+use crate::operator::NotFinite;
 use crate::product::{COARSE, POINTS, Product};
-use crate::relax::{Outcome, Relaxation, Stop, relax};
-use crate::second_kind::norm_estimate;
-use crate::system::System;
-use crate::value::Value;
+use crate::second_kind::Blocks;
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -156,14 +151,6 @@ fn missed(product: &Product<'_, '_, f64>, panels: &Panels, f: &[f64]) -> Vec<f64
 /// What evaluating a function and its interpolant leaves, as a part of it.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// ‖F − F̃‖ and the residual of GMRES, as parts of the tolerance; and the residual for norms, which need not be known well.
-const KEPT: f64 = 0.1;
-const SOLVED: f64 = 0.01;
-const ROUGHLY: f64 = 0.01;
-
-/// The most steps of GMRES.
-const STEPS: usize = 500;
-
 /// Places where the residual is asked for: at each the kernel is asked for on all panels.
 const PLACES: usize = 128;
 
@@ -172,9 +159,6 @@ const NEXT: f64 = 0.9999;
 
 /// The most halvings of a panel at an end at once.
 const HALVINGS: f64 = 24.0;
-
-/// From this condition on a matrix cannot be told from a singular one.
-const SINGULAR: f64 = 1e13;
 
 /// The solution on given panels, judged.
 struct Attempt {
@@ -192,31 +176,15 @@ impl Attempt {
         let class = product.class(0, 0);
         let coupling = ProductNystrom::new(product.equation(), panels.edges().to_vec(), Some(class))?;
         let points: Vec<[f64; 1]> = coupling.nodes().iter().map(|x| [*x]).collect();
-        let told = |error| explained(error, coupling.nodes());
-        let kept = (KEPT * tolerance).clamp(1e-14, 1e-4);
-        let options = hierarchical::Options { tolerance: kept, ..Default::default() };
-        let plan = Plan::new(&coupling, &points, options).map_err(told)?;
-        let operator = plan.assemble(|_| ()).map_err(told)?;
-
-        let transposed = Transposed(&operator);
-        let norm = norm_estimate(points.len(), |u| applied(&transposed, u), |u| applied(&operator, u));
-        let inverse_norm = norm_estimate(
-            points.len(),
-            |u| solved(&transposed, u, ROUGHLY),
-            |u| solved(&operator, u, ROUGHLY),
-        );
-        let condition = (1.0 + norm) * inverse_norm;
-        // NaN is where GMRES finds no solution.
-        let condition = if condition.is_nan() { f64::INFINITY } else { condition };
-        if condition > SINGULAR {
-            return Err(EquationError::Method(format!(
-                "I − A cannot be told from a singular operator with {} unknowns (condition {condition:.0e}): the equation has no \
-                 solution or many, and which of both is told only where {DENSE} unknowns resolve the source",
-                points.len()
-            )));
-        }
+        let not_finite = |entry: NotFinite| EquationError::KernelNotFinite {
+            x: coupling.nodes()[entry.row],
+            y: coupling.nodes()[entry.column],
+            value: entry.value.to_string(),
+        };
+        let blocks = Blocks::new(&coupling, &points, (tolerance, memory::limit()), not_finite)?;
         let source = sampled(product, coupling.nodes())?;
-        let values = solved(&operator, &source, SOLVED * tolerance / inverse_norm.max(1.0));
+        let values = blocks.solve(&source);
+        let (norm, inverse_norm, condition) = (blocks.norm(), blocks.inverse_norm(), blocks.condition());
         let scale = largest(&values);
         let mut tails = missed(product, panels, &source);
         let images: Vec<f64> = values.iter().zip(&source).map(|(value, f)| value - f).collect();
@@ -327,55 +295,4 @@ fn towards_ends(panels: &Panels, halvings: [usize; 2]) -> Panels {
         finer = finer.cut(|panel| if is_cut(panel) { 2 } else { 1 });
     }
     finer
-}
-
-/// u with (I − F) u = f, to a residual of such a part of f; NaN where GMRES does not find it.
-fn solved(operator: &impl Operator<f64>, f: &[f64], part: f64) -> Vec<f64> {
-    let ones = vec![1.0; f.len()];
-    let system = System { source: f, coefficient: &ones, operator };
-    let mut gmres = Gmres::new(system);
-    let stop = Stop { residual: part.max(4.0 * f64::EPSILON) * largest(f), sweeps: STEPS };
-    match relax(&mut gmres, stop, |_, _, _| true).outcome {
-        Outcome::Converged | Outcome::Stalled => gmres.solution(),
-        _ => vec![f64::NAN; f.len()],
-    }
-}
-
-fn applied(operator: &impl Operator<f64>, u: &[f64]) -> Vec<f64> {
-    let mut image = vec![0.0; u.len()];
-    operator.apply(u, &mut image);
-    image
-}
-
-/// Fᵀ.
-struct Transposed<'a>(&'a Hierarchical);
-
-impl Matrix for Transposed<'_> {
-    fn dim(&self) -> usize {
-        self.0.dim()
-    }
-    fn diagonal(&self, i: usize) -> f64 {
-        self.0.diagonal(i)
-    }
-}
-
-impl Rows for Transposed<'_> {
-    fn row<'a>(&'a self, i: usize, buffer: &'a mut Vec<f64>) -> Line<'a> {
-        self.0.column(i, buffer)
-    }
-    fn act<V: Value>(&self, u: &[V], out: &mut [V]) {
-        self.0.act_transposed(u, out);
-    }
-}
-
-/// An error of the operator as one of the equation.
-fn explained(error: HierarchicalError, nodes: &[f64]) -> EquationError {
-    match error {
-        HierarchicalError::Entry(entry) => EquationError::KernelNotFinite {
-            x: nodes[entry.row],
-            y: nodes[entry.column],
-            value: entry.value.to_string(),
-        },
-        other => EquationError::Method(other.to_string()),
-    }
 }

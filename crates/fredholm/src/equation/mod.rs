@@ -172,8 +172,8 @@ pub enum EquationError {
     },
     /// The kernel is infinite or NaN at points of the plane where it was sampled.
     #[error(
-        "the kernel is {value} at (x, y) = ({}, {}), (s, t) = ({}, {}): in the plane only kernels are integrated that are finite \
-         everywhere",
+        "the kernel is {value} at (x, y) = ({}, {}), (s, t) = ({}, {}): in the plane only kernels are integrated that are finite but \
+         at p = q",
         .p[0], .p[1], .q[0], .q[1]
     )]
     PlaneKernelNotFinite {

@@ -61,6 +61,17 @@ impl Domain {
         }
     }
 
+    /// Its size, and how far it is from the origin at most: what rounding makes of differences of its points.
+    pub(super) fn extent(&self) -> (f64, f64) {
+        let points = match *self {
+            Self::Rectangle { x0, x1, y0, y1 } => vec![[x0, y0], [x1, y1]],
+            Self::Triangle(corners) => corners.to_vec(),
+            Self::Disk { centre: [x, y], radius } => vec![[x - radius, y - radius], [x + radius, y + radius]],
+        };
+        let far = |p: &[f64; 2]| p[0].abs().max(p[1].abs());
+        (self.area().sqrt(), points.iter().map(far).fold(0.0, f64::max))
+    }
+
     /// The domain itself, if it is one.
     pub(super) fn checked(self) -> Result<Self, EquationError> {
         let proper = match self {

@@ -20,11 +20,12 @@ mod estimate;
 mod mesh;
 mod nystrom;
 mod piece;
+mod product;
 mod singular;
 mod solve;
 
 pub use domain::Domain;
-pub use solve::{Options, solve};
+pub use solve::{DENSE, Options, solve, solve_large};
 
 use crate::equation::{EquationError, Scalar};
 

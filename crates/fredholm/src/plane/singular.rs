@@ -19,13 +19,13 @@ pub(super) struct Singular<T> {
 
 /// Singular values up to this part of the largest are zero: rounding leaves 1e-14, and what is larger than this can still be
 /// divided by, with five digits left.
-const ZERO: f64 = 1e-11;
+pub(super) const ZERO: f64 = 1e-11;
 
 /// Singular values up to this part of the largest may still become zero with more nodes.
-const SMALL: f64 = 1e-4;
+pub(super) const SMALL: f64 = 1e-4;
 
 /// How many singular values besides those that are zero are told.
-const TOLD: usize = 3;
+pub(super) const TOLD: usize = 3;
 
 impl<T: Scalar> Singular<T> {
     /// `None` where a decomposition fails. `a` is A, n × n, row by row.

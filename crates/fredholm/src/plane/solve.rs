@@ -1,12 +1,13 @@
 //! n grows until the estimated ‖φ − φ_n‖∞ meets the tolerance, and where growth does not pay the domain is divided (paper,
 //! §1.2.3).
 
-use super::PlaneEquation;
 use super::alternative::{alternative, is_resolved};
 use super::estimate::{Error, defects, error, largest};
 use super::mesh::Mesh;
 use super::nystrom::Nystrom;
-use crate::equation::{Alternative, Answer, EquationError, Scalar, Status};
+use super::{PlaneEquation, product};
+use crate::equation::{Alternative, Answer, Class, EquationError, Scalar, Status};
+use crate::memory;
 
 /// How exactly, and at what cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,13 +16,16 @@ pub struct Options {
     pub tolerance: f64,
     /// Nodes in each direction, on the undivided domain (a disk has n radii and 4n angles); `None`: as many as it takes.
     pub n: Option<usize>,
-    /// The most numbers to solve for. 3000 take some seconds and 400 MB.
+    /// The most numbers to solve for.
     pub unknowns: usize,
 }
 
+/// Unknowns of which a matrix takes some ten seconds and 800 MB.
+pub const DENSE: usize = 4096;
+
 impl Default for Options {
     fn default() -> Self {
-        Self { tolerance: 1e-12, n: None, unknowns: 3000 }
+        Self { tolerance: 1e-12, n: None, unknowns: DENSE }
     }
 }
 
@@ -43,22 +47,79 @@ struct Found<'e, 'a, T: Scalar> {
 }
 
 /// Solves by Nyström's method, with Gauss's rules on rectangles and triangles, and Gauss in r² and the trapezoid rule in the
-/// angle on a disk.
+/// angle on a disk; where K is singular at p = q like ln |p − q| or |p − q|^β, β > −2, or has a bend there, by a product rule on graded
+/// elements of 16 × 16 nodes.
 ///
 /// # Errors
 ///
-/// A domain without area, options that ask for nothing, a source or kernel that is infinite or NaN at a node.
+/// A domain without area, options that ask for nothing, a source that is infinite or NaN at a node, a kernel that is so
+/// elsewhere than at p = q or that cannot be integrated, fewer unknowns allowed than the first elements have.
 pub fn solve<'e, 'a, T: Scalar>(
     equation: &'e PlaneEquation<'a, T>,
     options: &Options,
 ) -> Result<Answer<'e, [f64; 2], T>, EquationError> {
-    let domain = equation.domain.checked()?;
+    solve_by(equation, &options.fitting::<T>(), product::dense)
+}
+
+/// As [`solve`]; where more unknowns are allowed than [`DENSE`] a real equation with a singular kernel is solved with A in blocks of low
+/// rank: 20 000 of them take 2 GB and not 10. Whether I − A is singular is then not examined.
+///
+/// # Errors
+///
+/// As [`solve`]; [`EquationError::Method`] where I − A cannot be told from a singular operator.
+pub fn solve_large<'e>(
+    equation: &'e PlaneEquation<'_, f64>,
+    options: &Options,
+) -> Result<Answer<'e, [f64; 2], f64>, EquationError> {
+    solve_by(equation, options, product::in_blocks)
+}
+
+fn solve_by<'e, 'a, T: Scalar>(
+    equation: &'e PlaneEquation<'a, T>,
+    options: &Options,
+    find: product::Find<'e, 'a, T>,
+) -> Result<Answer<'e, [f64; 2], T>, EquationError> {
+    equation.domain.checked()?;
     options.check()?;
-    let mut mesh = Mesh::new(domain, options.n.unwrap_or(FIRST));
+    let class = product::class(equation)?;
+    if matches!(class, Class::Logarithmic | Class::Algebraic { .. }) {
+        return match options.n {
+            None => product::solve(equation, class, options, find),
+            Some(_) => Err(EquationError::Method(
+                "n is for kernels that are smooth: this one takes elements of 16 × 16 nodes, as many as are needed".to_owned(),
+            )),
+        };
+    }
+    // A bend along lines, and not at p = q alone, is as hard for the product rule as for the other.
+    let bent = match class {
+        Class::Kink if options.n.is_none() => product::solve(equation, class, options, find).ok(),
+        _ => None,
+    };
+    match bent {
+        Some(answer) if answer.status != Status::ToleranceNotMet => Ok(answer),
+        bent => match solve_smooth(equation, &options.fitting::<T>()) {
+            // As sin |p − q| / |p − q| is.
+            Err(EquationError::PlaneKernelNotFinite { p, q, .. }) if p == q && options.n.is_none() => {
+                product::solve(equation, class, options, find)
+            }
+            Ok(smooth) if bent.as_ref().is_none_or(|bent| smooth.error_estimate < bent.error_estimate) => {
+                Ok(smooth)
+            }
+            other => bent.map_or(other, Ok),
+        },
+    }
+}
+
+/// With a kernel that is smooth.
+fn solve_smooth<'e, 'a, T: Scalar>(
+    equation: &'e PlaneEquation<'a, T>,
+    options: &Options,
+) -> Result<Answer<'e, [f64; 2], T>, EquationError> {
+    let mut mesh = Mesh::new(equation.domain, options.n.unwrap_or(FIRST));
     if mesh.unknowns() > options.unknowns {
         let (needed, most) = (mesh.unknowns(), options.unknowns);
         return Err(EquationError::Method(format!(
-            "{needed} unknowns are asked for, and {most} are allowed"
+            "{needed} unknowns are asked for, and {most} are allowed, or fit into the memory"
         )));
     }
     let mut best = attempt(equation, &mesh, options.tolerance)?;
@@ -79,7 +140,16 @@ pub fn solve<'e, 'a, T: Scalar>(
     Ok(best.into_answer(options.tolerance))
 }
 
+/// Bytes at the peak for each byte of a matrix, measured: A, I − A, its factors, and what it takes to make them.
+const COPIES: u64 = 4;
+
 impl Options {
+    /// With no more unknowns than the memory has room for a matrix of.
+    fn fitting<T>(&self) -> Self {
+        let entries = memory::limit() / (COPIES * size_of::<T>() as u64);
+        Self { unknowns: self.unknowns.min(entries.isqrt() as usize), ..*self }
+    }
+
     fn check(&self) -> Result<(), EquationError> {
         if !(self.tolerance >= 0.0 && self.tolerance.is_finite()) {
             let tolerance = self.tolerance;

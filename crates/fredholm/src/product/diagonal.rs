@@ -73,7 +73,21 @@ const PLACES: [f64; 5] = [0.1317, 0.3171, 0.5413, 0.7231, 0.9073];
 const REACHES: [f64; 5] = [0.08, 1e-2, 1e-3, 1e-4, 1e-5];
 
 /// The class of a kernel: the worst that is seen on its diagonal.
+///
+/// # Errors
+///
+/// [`EquationError::Method`] where it cannot be integrated.
 pub(crate) fn class<T: Scalar>(kernel: &dyn LineKernel<T>, change: Change) -> Result<Class, EquationError> {
+    match seen(kernel, change)? {
+        Class::Algebraic { exponent } if exponent < -0.99 => Err(EquationError::Method(format!(
+            "the kernel grows like |x − y|^{exponent:.2} towards x = y: it cannot be integrated"
+        ))),
+        class => Ok(class),
+    }
+}
+
+/// The worst that is seen of a kernel on its diagonal, whether it can be integrated or not.
+pub(crate) fn seen<T: Scalar>(kernel: &dyn LineKernel<T>, change: Change) -> Result<Class, EquationError> {
     let (from, to) = change.range();
     let mut worst = Class::Smooth;
     for place in PLACES {
@@ -81,12 +95,7 @@ pub(crate) fn class<T: Scalar>(kernel: &dyn LineKernel<T>, change: Change) -> Re
         let seen = look(&mut Sampler::new(kernel, change, t), to - from)?;
         worst = worse(worst, seen);
     }
-    match worst {
-        Class::Algebraic { exponent } if exponent < -0.99 => Err(EquationError::Method(format!(
-            "the kernel grows like |x − y|^{exponent:.2} towards x = y: it cannot be integrated"
-        ))),
-        class => Ok(class),
-    }
+    Ok(worst)
 }
 
 /// Of two classes, the one that asks for more.

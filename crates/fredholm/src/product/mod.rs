@@ -5,13 +5,13 @@
 //! K is only asked to be a polynomial on panels, so that a handful of unknowns is enough where K is wild but φ is not.
 
 mod change;
-mod diagonal;
+pub(crate) mod diagonal;
 mod reference;
 mod row;
 
 pub(crate) use change::Change;
 pub(crate) use diagonal::Diagonal;
-pub(crate) use reference::{COARSE, FINE, POINTS, Reference};
+pub(crate) use reference::{COARSE, FINE, POINTS, Reference, SINGULAR};
 pub(crate) use row::{OnPanel, RowBuilder};
 
 use crate::equation::{Class, Equation, EquationError, Scalar};

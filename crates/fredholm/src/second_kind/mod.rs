@@ -1,5 +1,9 @@
 //! (I − A) u = f for a dense A of nodal values: solved, with its norms, and taken apart where it is singular.
 
+mod blocks;
+
+pub(crate) use blocks::Blocks;
+
 use crate::equation::{Complex64, Scalar};
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::{Mat, MatRef};
@@ -144,7 +148,7 @@ fn inverse_norm_estimate<T: Scalar>(factors: &PartialPivLu<T>, n: usize) -> f64 
 
 /// ‖B‖∞ = ‖B*‖₁ of an n × n matrix by Hager's ascent, from u ↦ B* u and u ↦ B u: from the corner of the unit ball that the last
 /// step points at. Not above the norm, and rarely below a third of it (Hager 1984, Higham 1988).
-pub(crate) fn norm_estimate<T: Scalar>(
+fn norm_estimate<T: Scalar>(
     n: usize,
     adjoint: impl Fn(&[T]) -> Vec<T>,
     forward: impl Fn(&[T]) -> Vec<T>,
