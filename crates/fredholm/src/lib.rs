@@ -153,6 +153,12 @@
 //! let equation = PlaneEquation::new(Domain::disk([0.0, 0.0], 1.0)?, kernel, |[x, _]| 1.0 + 0.75 * x);
 //! let answer = solve(&equation, &Options::default())?;
 //! assert!((answer.at(&[0.3, -0.4]) - 1.3).abs() <= answer.error_estimate);
+//!
+//! // A kernel may be singular at p = q. With K = −ln |p − q| / 2π and f = 1, φ = J₀(r)/J₀(1).
+//! let kernel = |p: [f64; 2], q: [f64; 2]| -(p[0] - q[0]).hypot(p[1] - q[1]).ln() / std::f64::consts::TAU;
+//! let equation = PlaneEquation::new(Domain::disk([0.0, 0.0], 1.0)?, kernel, |_| 1.0);
+//! let answer = solve(&equation, &Options::default())?;
+//! assert!((answer.at(&[0.0, 0.0]) - 1.0 / 0.765_197_686_557_966_6).abs() <= answer.error_estimate);
 //! # Ok::<(), fredholm::equation::EquationError>(())
 //! ```
 //!

@@ -64,9 +64,9 @@ pub struct Solve {
     #[arg(long, value_name = "N", value_parser = at_least_one, help_heading = "Method")]
     pub n: Option<usize>,
 
-    /// The most unknowns where the program finds how many it takes [default: 3000]. In a matrix time goes with their cube and
-    /// memory with their square; more than 3000 of one real equation on a finite interval are kept in blocks of low rank, up to
-    /// millions, 4 kB each
+    /// The most unknowns where the program finds how many it takes [default: 3000, in the plane 4096]. In a matrix time goes with
+    /// their cube and memory with their square; more of one real equation on a finite interval are kept in blocks of low rank, up
+    /// to millions, 4 kB each; so they are in the plane where K is singular at (x, y) = (s, t), some ten thousands, 50 kB each
     #[arg(long, value_name = "N", value_parser = at_least_one, help_heading = "Method")]
     pub unknowns: Option<usize>,
 

@@ -62,7 +62,7 @@ pub fn solve<'e, 'a, T: Scalar>(
 }
 
 /// As [`solve`]; where more unknowns are allowed than [`DENSE`] a real equation with a singular kernel is solved with A in blocks of low
-/// rank: 20 000 of them take 2 GB and not 10. Whether I − A is singular is then not examined.
+/// rank: 20 000 of them take 1 GB and not 13. Whether I − A is singular is then not examined.
 ///
 /// # Errors
 ///
