@@ -1,5 +1,5 @@
 //! The hierarchical operator from a thousand unknowns to a million, each line an equation with a known solution: building it, its
-//! action set against reading as many bytes in the same moment, and GMRES on it.
+//! action set against reading as many bytes in the same moment, and GMRES on it; and singular kernels in the plane, as a whole.
 //!
 //! `cargo bench --bench hierarchical` goes to 10⁵; `-- 65536` makes panels of 16 unknowns up to that number, a million unknowns.
 #![allow(missing_docs, clippy::print_stdout)]
@@ -9,6 +9,7 @@ use fredholm::equation::{ByOffset, Equation, Interval};
 use fredholm::krylov::Gmres;
 use fredholm::operator::hierarchical::{Hierarchical, Options, Plan};
 use fredholm::operator::{Matrix, Operator};
+use fredholm::plane::{self, Domain, PlaneEquation};
 use fredholm::relax::{Relaxation, Stop, relax};
 use fredholm::system::System;
 use rayon::prelude::*;
@@ -32,6 +33,50 @@ fn main() -> Result<(), Box<dyn Error>> {
         lines.push(sphere(n)?);
     }
     slopes(&lines);
+    println!(
+        "\nφ = f + ∫ K φ on the unit square, product rule on graded elements, to 1e-12 or as many unknowns as are allowed"
+    );
+    println!("{:>22} {:>8} {:>8} {:>8} {:>9} {:>9}", "K", "allowed", "n", "s", "told", "error");
+    for allowed in [1024, 4096, 20_000].into_iter().filter(|allowed| *allowed <= 16 * most) {
+        square(
+            "ln |p − q| / 10",
+            allowed,
+            |r| 0.1 * r.ln(),
+            |h, t| 0.1 * h * (0.5 * (t * h.hypot(t).ln() - t + h * (t / h).atan()) - 0.25 * t),
+        )?;
+        square("1 / (10 |p − q|)", allowed, |r| 0.1 / r, |h, t| 0.1 * h * (t / h).asinh())?;
+    }
+    Ok(())
+}
+
+/// φ = 1. ∫ K(p, q) dq is a sum over the sides: of `side` from one end to the other, h being the distance of p from a side's line and t
+/// what runs along it.
+fn square(
+    name: &str,
+    allowed: usize,
+    kernel: fn(f64) -> f64,
+    side: fn(f64, f64) -> f64,
+) -> Result<(), Box<dyn Error>> {
+    let source = |[x, y]: [f64; 2]| {
+        let sides = [(y, x), (1.0 - x, y), (1.0 - y, x), (x, y)];
+        1.0 - sides
+            .iter()
+            .filter(|(h, _)| *h > 0.0)
+            .map(|(h, at)| side(*h, 1.0 - at) - side(*h, -at))
+            .sum::<f64>()
+    };
+    let kernel = |p: [f64; 2], q: [f64; 2]| kernel((p[0] - q[0]).hypot(p[1] - q[1]));
+    let equation = PlaneEquation::new(Domain::rectangle(0.0, 1.0, 0.0, 1.0)?, kernel, source);
+    let options = plane::Options { tolerance: 1e-12, n: None, unknowns: allowed };
+    let start = Instant::now();
+    let answer = plane::solve_large(&equation, &options)?;
+    let taken = start.elapsed().as_secs_f64();
+    let at = |k: usize| [0.754_877_666, 0.569_840_291].map(|step| (0.5 + step * k as f64).fract());
+    let error = (0..1000).map(|k| (answer.at(&at(k)) - 1.0).abs()).fold(0.0, f64::max);
+    println!(
+        "{name:>22} {allowed:>8} {:>8} {taken:>8.2} {:>9.1e} {error:>9.1e}",
+        answer.unknowns, answer.error_estimate
+    );
     Ok(())
 }
 
