@@ -63,6 +63,11 @@ const DOMAINS: &[Case] = &[
     ("solve|good.toml|--interval|0|1|--domain|disk 0 0 1", 2, &["cannot be used with"]),
     ("solve|good.toml|--at|1.5", 1, &["--at: ", "outside of the interval"]),
     ("solve|good.toml|--at|0:1", 1, &["--at: ", "from:step:to"]),
+    (
+        "solve|--kernel|1/((x-s)^2+(y-t)^2)|--source|1|--domain|rectangle 0 1 0 1",
+        1,
+        &["|p − q|^-2.00", "cannot be integrated"],
+    ),
     ("solve|good.toml|--domain|disk 0 0 1|--at|2,0", 1, &["--at: ", "outside of the disk"]),
     ("compare|good.toml|--domain|disk 0 0 1", 1, &["on intervals"]),
     ("spectrum|good.toml|--domain|disk 0 0 1", 1, &["on intervals"]),
