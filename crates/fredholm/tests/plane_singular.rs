@@ -211,6 +211,19 @@ fn refused(kernel: impl Fn(Point, Point) -> f64 + Sync + Send, options: Options)
     solve(&PlaneEquation::new(RECTANGLE, kernel, |_| 1.0), &options).unwrap_err()
 }
 
+/// At 10⁷ from the origin seven digits of |p − q| are left at a distance of 1, and none at 10⁻⁸.
+#[test]
+fn rounding_far_from_the_origin_is_in_the_estimate() {
+    let far = Domain::Disk { centre: [1e7, 0.0], radius: 1.0 };
+    let kernel = |p: Point, q: Point| -1.0 / PI * distance(p, q).ln();
+    let equation = PlaneEquation::new(far, kernel, |_| 1.0);
+    let answer = solve(&equation, &to(1e-6)).unwrap();
+    let phi = bessel(2.0);
+    let error = error(&answer, far, |[x, y]| phi([x - 1e7, y]));
+    let told = answer.error_estimate;
+    assert!(error <= told && told < 1e-4, "{error:.1e}, told {told:.1e}");
+}
+
 #[test]
 fn what_cannot_be_done_is_said() {
     let strong = refused(|p, q| distance(p, q).powf(-2.5), Options::default());
@@ -220,6 +233,11 @@ fn what_cannot_be_done_is_said() {
     assert!(few.to_string().contains("at least 1024 unknowns"), "{few}");
     let n = refused(ln, Options { n: Some(20), ..Options::default() });
     assert!(n.to_string().contains("n is for kernels that are smooth"), "{n}");
+    let flat = Domain::triangle([[0.0, 0.0], [1.0, 0.0], [1.0, 1e-3]]).unwrap();
+    let flat = solve(&PlaneEquation::new(flat, ln, |_| 1.0), &Options::default()).unwrap_err();
+    assert!(flat.to_string().contains("1000 times as long as it is high"), "{flat}");
+    let none = refused(|_, _| f64::NAN, Options::default());
+    assert!(matches!(none, EquationError::PlaneKernelNotFinite { .. }), "{none}");
     // Infinite along a line.
     let line = refused(|[x, _], [s, _]| (x - s).abs().powf(-0.5), Options::default());
     assert!(

@@ -61,6 +61,14 @@ impl Domain {
         }
     }
 
+    /// How many times a triangle is as long as it is high; 1 of the others, whose sides are at right angles.
+    pub(super) fn slenderness(&self) -> f64 {
+        match self {
+            Self::Triangle(corners) => 0.5 * longest_side(corners).powi(2) / triangle_area(corners),
+            _ => 1.0,
+        }
+    }
+
     /// Its size, and how far it is from the origin at most: what rounding makes of differences of its points.
     pub(super) fn extent(&self) -> (f64, f64) {
         let points = match *self {

@@ -1,4 +1,5 @@
-//! φ(p) = f(p) + ∫_D K(p, q) φ(q) dq on a rectangle, a triangle or a disk D of the plane (paper, (1.7), by §1.2.3).
+//! φ(p) = f(p) + ∫_D K(p, q) φ(q) dq on a rectangle, a triangle or a disk D of the plane (paper, (1.7), by §1.2.3); K may be singular
+//! at p = q.
 //!
 //! ```
 //! use fredholm::plane::{Domain, Options, PlaneEquation, solve};

@@ -20,7 +20,7 @@ pub struct Options {
     pub unknowns: usize,
 }
 
-/// Unknowns of which a matrix takes some ten seconds and 800 MB.
+/// Unknowns of which a matrix takes some ten seconds and half a GB.
 pub const DENSE: usize = 4096;
 
 impl Default for Options {
@@ -58,7 +58,7 @@ pub fn solve<'e, 'a, T: Scalar>(
     equation: &'e PlaneEquation<'a, T>,
     options: &Options,
 ) -> Result<Answer<'e, [f64; 2], T>, EquationError> {
-    solve_by(equation, &options.fitting::<T>(), product::dense)
+    solve_by(equation, &options.fitting::<T>(), product::Attempt::dense)
 }
 
 /// As [`solve`]; where more unknowns are allowed than [`DENSE`] a real equation with a singular kernel is solved with A in blocks of low

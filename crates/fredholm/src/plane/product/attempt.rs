@@ -170,7 +170,7 @@ impl<'e> Attempt<'e, '_, f64> {
 
 impl<'e, 'a, T: Scalar> Attempt<'e, 'a, T> {
     /// With A as a matrix.
-    pub(super) fn dense(layout: Layout<'e, 'a, T>, tolerance: f64) -> Result<Self, EquationError> {
+    pub(in crate::plane) fn dense(layout: Layout<'e, 'a, T>, tolerance: f64) -> Result<Self, EquationError> {
         let (source, n) = (layout.sources()?, layout.dim());
         let a = layout.matrix()?;
         let mut system = SecondKind::new(n, &a);

@@ -10,10 +10,11 @@ mod element;
 mod layout;
 mod row;
 
+pub(super) use attempt::Attempt;
+
 use super::{DENSE, Options, PlaneEquation};
 use crate::equation::{Answer, Class, EquationError, LineKernel, Scalar};
 use crate::product::{Change, diagonal};
-use attempt::Attempt;
 use element::Elements;
 use layout::Layout;
 use std::sync::Arc;
@@ -35,7 +36,14 @@ pub(super) fn class<T: Scalar>(equation: &PlaneEquation<'_, T>) -> Result<Class,
             equation.kernel.row(on_line(x), &[on_line(y)], &mut value);
             value[0]
         };
-        let seen = diagonal::seen(&kernel as &dyn LineKernel<T>, Change::Identity { a: 0.0, b: 1.0 })?;
+        let in_plane = |error| match error {
+            EquationError::KernelNotFinite { x, y, value } => {
+                EquationError::PlaneKernelNotFinite { p: on_line(x), q: on_line(y), value }
+            }
+            other => other,
+        };
+        let change = Change::Identity { a: 0.0, b: 1.0 };
+        let seen = diagonal::seen(&kernel as &dyn LineKernel<T>, change).map_err(in_plane)?;
         worst = diagonal::worse(worst, seen);
     }
     match worst {
@@ -49,16 +57,11 @@ pub(super) fn class<T: Scalar>(equation: &PlaneEquation<'_, T>) -> Result<Class,
 /// |p − q|^−2 has no integral, and is hard to tell from this.
 const STRONGEST: f64 = -1.95;
 
+/// Cells of a triangle are as slender as it is, and p is near to very many of them.
+const SLENDEREST: f64 = 30.0;
+
 /// How the solution on given elements is found, to a tolerance.
 pub(super) type Find<'e, 'a, T> = fn(Layout<'e, 'a, T>, f64) -> Result<Attempt<'e, 'a, T>, EquationError>;
-
-/// With A as a matrix, whatever it takes.
-pub(super) fn dense<'e, 'a, T: Scalar>(
-    layout: Layout<'e, 'a, T>,
-    tolerance: f64,
-) -> Result<Attempt<'e, 'a, T>, EquationError> {
-    Attempt::dense(layout, tolerance)
-}
 
 /// With A in blocks of low rank where a matrix takes more time and memory.
 pub(super) fn in_blocks<'e, 'a>(
@@ -79,6 +82,13 @@ pub(super) fn solve<'e, 'a, T: Scalar>(
     options: &Options,
     find: Find<'e, 'a, T>,
 ) -> Result<Answer<'e, [f64; 2], T>, EquationError> {
+    if equation.domain.slenderness() > SLENDEREST {
+        return Err(EquationError::Method(format!(
+            "the {} is {:.0} times as long as it is high: with a kernel that is not smooth at p = q it may be {SLENDEREST} times",
+            equation.domain,
+            equation.domain.slenderness()
+        )));
+    }
     let (tolerance, exponent) = (options.tolerance, exponent(class));
     let elements = Elements::new(equation.domain, exponent);
     if elements.unknowns() > options.unknowns {

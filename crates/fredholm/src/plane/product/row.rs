@@ -269,7 +269,9 @@ impl<'k, 'a, T: Scalar> RowBuilder<'k, 'a, T> {
         row: &mut [T],
     ) -> Result<(), EquationError> {
         let extent = Extent::new(frame.chart, cell);
-        if extent.is_far(self.target.p, self.rule.separation) || depth == DEPTH {
+        // Places that rounding makes one are never far from each other.
+        let is_least = depth == DEPTH || extent.radius <= self.grain();
+        if is_least || extent.is_far(self.target.p, self.rule.separation) {
             return self.whole(frame, cell, row);
         }
         let [u, v] = extent.lengths;
