@@ -1,4 +1,4 @@
-//! Very many patches: time, memory, links and error of the hierarchical operator on four scenes, and the matrix beside it.
+//! Very many patches: time, memory, links and error of the hierarchical operator on scenes of any size, and the matrix beside it.
 //!
 //! `cargo bench -p radiosity --bench hierarchical [-- PATCHES … SCENE … ACCURACY reference finer]`: 1 000, 10 000 and 100 000 if none are given,
 //! all four scenes, and an accuracy of factors of 0.001; a million take some minutes each. Times are of the whole: clusters, sketch, links,
@@ -27,7 +27,7 @@ fn main() {
     let given: Vec<usize> = words.iter().filter_map(|word| word.parse().ok()).collect();
     let counts = if given.is_empty() { vec![1_000, 10_000, 100_000] } else { given };
     let named = |name: &&str| words.iter().any(|word| word == name);
-    let names = ["Cornell box", "boxes", "terrain", "building", "storeys"];
+    let names = ["Cornell box", "boxes", "terrain", "building", "rooms", "storeys"];
     let accuracy = words.iter().filter_map(|word| word.parse().ok()).find(|a| *a < 1.0).unwrap_or(1e-3);
     let is_asked = |word: &str| words.iter().any(|said| said == word);
     let asked = Asked { accuracy, reference: is_asked("reference"), finer: is_asked("finer") };
@@ -69,6 +69,9 @@ struct Asked {
 /// Patches of a room of the building.
 const A_ROOM: f64 = 4500.0;
 
+/// Rooms from wall to wall of the building that is the same however many patches there are.
+const ROOMS: usize = 10;
+
 /// Rooms of a storey from wall to wall, in the building of storeys.
 const A_SIDE: usize = 5;
 
@@ -78,6 +81,7 @@ fn scene(name: &str, count: usize) -> Scene<Rgb> {
         "boxes" => scenes::boxes(),
         "terrain" => scenes::terrain(count),
         "building" => scenes::building(((count as f64 / A_ROOM).sqrt().ceil() as usize).max(2), 1),
+        "rooms" => scenes::building(ROOMS, 1),
         "storeys" => scenes::building(
             A_SIDE,
             (count as f64 / (A_ROOM * A_SIDE.pow(2) as f64)).round().max(1.0) as usize,

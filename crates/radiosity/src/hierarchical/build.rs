@@ -274,17 +274,16 @@ impl<'a, V: Value> Plan<'a, V> {
         blocks: &mut Blocks,
     ) {
         let range = self.clusters.tree.range(receiver);
-        let first = range.start;
-        let parts = &self.clusters.polygons[range];
+        let receivers = factors.receivers(&self.clusters.polygons[range.clone()], range.start);
         let worth = work.part * cuts.arriving[receiver.index()];
         let (mut rays, mut column) = (0, Column::default());
         for (number, &Found { cluster: sender, weight, clear }) in (0_u64..).zip(found) {
             let worth = worth / cuts.brightness[sender.index()];
-            factors.column(parts, &Link { first, sender, weight, number, clear, worth }, &mut column);
+            factors.column(&receivers, &Link { sender, weight, number, clear, worth }, &mut column);
             rays += column.cast;
             blocks.add(sender, &column.factors);
         }
-        blocks.close(receiver, parts.len(), rays);
+        blocks.close(receiver, range.len(), rays);
     }
 
     /// The receivers of a region.

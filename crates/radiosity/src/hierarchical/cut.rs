@@ -113,13 +113,16 @@ impl Cuts<'_> {
             // How many times more than it may a link brings, or is wrong.
             let wrong = factor * self.deviation[cluster.index()] / WRONG;
             let excess = energy.max(wrong).max(if is_far() { 0.0 } else { energy / WRONG }) / most;
-            let blocker = self.blocker(here, there);
+            let rays = (SURE * excess).ceil() as u64;
+            let children = self.clusters.tree.children(cluster);
+            // A cluster that is cut in two whether or not it seems hidden is too large, mostly, for one polygon to hide: its halves will tell.
+            let is_cut = rays > PROBES && children.is_some();
+            let blocker = if is_cut { None } else { self.blocker(here, there) };
             if blocker.is_some_and(|id| self.hides(id, here, there)) {
                 continue;
             }
-            let rays = (SURE * excess).ceil() as u64;
             let counts = excess > 1.0 && (blocker.is_none() || !self.seems_hidden(cluster, rays, hidden));
-            match self.clusters.tree.children(cluster) {
+            match children {
                 Some([a, b]) if counts || self.overlaps(cluster, &own) => stack.extend([b, a]),
                 _ => {
                     let clear = blocker.is_none() && self.is_clear(hull.as_deref(), cluster);

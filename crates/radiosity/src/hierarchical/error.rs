@@ -73,12 +73,13 @@ impl<V: Value> Plan<'_, V> {
         let on = |(found, column): &mut (Vec<_>, Column), (leaf, place): &(Cluster, Polygon)| {
             cuts.of(*leaf, &mut Hidden::from(*leaf), found);
             let first = self.clusters.tree.range(*leaf).start;
+            let receivers = factors.receivers(std::slice::from_ref(place), first);
             let most = part * cuts.arriving[leaf.index()];
             let numbered = (0_u64..).zip(found.iter());
             numbered.fold(V::splat(0.0), |sum, (number, &Found { cluster: sender, weight, clear })| {
                 let worth = most / cuts.brightness[sender.index()];
-                let link = Link { first, sender, weight, number, clear, worth };
-                factors.column(std::slice::from_ref(place), &link, column);
+                let link = Link { sender, weight, number, clear, worth };
+                factors.column(&receivers, &link, column);
                 sum + radiosity[sender.index()] * column.factors[0]
             })
         };

@@ -2,8 +2,8 @@
 
 use super::clusters::{Clusters, Sender};
 use super::cut::{ALIKE, SMALL};
+use super::eyes::{Eyes, LANES, QUARTERS};
 use super::random::Random;
-use super::spot::Spot;
 use crate::form_factor::{contour, lambert};
 use crate::kernel;
 use crate::polygon::Polygon;
@@ -11,6 +11,8 @@ use crate::visibility::Visibility;
 use fredholm::operator::hierarchical::Cluster;
 use glam::DVec3;
 use std::f64::consts::PI;
+use std::hint::black_box;
+use wide::f64x8;
 
 /// Where form factors to clusters come from.
 pub(super) struct Factors<'a> {
@@ -29,10 +31,16 @@ pub(super) struct Factors<'a> {
     pub before: Vec<f64>,
 }
 
-/// What some patches side by side gather from.
-pub(super) struct Link {
+/// Patches side by side, or parts of them, that gather.
+pub(super) struct Receivers<'a> {
+    parts: &'a [Polygon],
     /// The place of the first of them in the order of the tree.
-    pub first: usize,
+    first: usize,
+    eyes: Vec<Eyes>,
+}
+
+/// What they gather from.
+pub(super) struct Link {
     pub sender: Cluster,
     /// What its factors are multiplied by: how many links it speaks for.
     pub weight: f64,
@@ -51,7 +59,7 @@ pub(super) struct Column {
     pub factors: Vec<f64>,
     /// Rays cast for them.
     pub cast: u64,
-    /// What comes from each part of the sender, by its brightness: where rays go.
+    /// What comes from each part of the sender to each patch, by its brightness: where rays go. Part by part, eights of patches.
     shares: Vec<f64>,
     elements: Vec<Element>,
     rays: Vec<Ray>,
@@ -61,17 +69,12 @@ pub(super) struct Column {
 struct Ray {
     patch: usize,
     random: Random,
-    /// The part of the sender that it goes to, and the patch there.
+    /// The part of the sender that it goes to, how far into what that sends, and the place of the patch there.
     part: Cluster,
-    spot: Spot,
+    u: f64,
+    place: usize,
     ends: Option<[DVec3; 2]>,
 }
-
-/// A patch this many times the size of both away is a point.
-const POINT: f64 = 12.0;
-
-/// From so many on it is four: as one it would be up to 4 % too bright, and all of a building with large patches 1.5 %.
-const POINTS: f64 = 4.0;
 
 /// A patch nearer than their size is integrated over its outline.
 const NEAR: f64 = 0.6;
@@ -115,81 +118,90 @@ impl<'a> Factors<'a> {
         Self { clusters, visibility, seed, fine: false, brightness, shaped: false, before }
     }
 
-    /// The form factors from patches side by side, or from parts of them.
-    pub fn column(&self, parts: &[Polygon], link: &Link, column: &mut Column) {
+    /// Patches side by side, or parts of them, from the place of the first in the order of the tree on.
+    pub fn receivers<'b>(&self, parts: &'b [Polygon], first: usize) -> Receivers<'b> {
+        let eyes = parts.chunks(LANES).map(|patches| Eyes::new(patches, self.fine));
+        Receivers { parts, first, eyes: eyes.collect() }
+    }
+
+    /// The form factors of a link.
+    pub fn column(&self, receivers: &Receivers<'_>, link: &Link, column: &mut Column) {
         column.cast = 0;
         column.factors.clear();
         column.shares.clear();
         column.elements.clear();
         match self.clusters.leaf(link.sender) {
             Some(place) => {
-                let there = (self.clusters.sender(link.sender), place);
-                let factor = |(k, part): (usize, &Polygon)| {
-                    if link.first + k == place { 0.0 } else { self.to_patch(part, there, link.worth) }
-                };
-                column.factors.extend(parts.iter().enumerate().map(factor));
+                let sender = (self.clusters.sender(link.sender), place, link.worth);
+                self.to_patch(receivers, sender, &mut column.factors);
             }
             None => {
                 self.add_elements(link.sender, &mut column.elements);
-                for part in parts {
-                    let whole = self.to_elements(part, &column.elements, &mut column.shares);
-                    column.factors.push(whole);
-                }
+                self.to_elements(receivers, column);
             }
         }
         if link.weight != 1.0 {
             column.factors.iter_mut().for_each(|factor| *factor *= link.weight);
         }
         if !link.clear {
-            self.cast(parts, link, column);
+            self.cast(receivers, link, column);
         }
     }
 
     /// Lets arrive what rays do.
     ///
-    /// Where all of them go is looked up before the first is cast: so they wait for memory together.
     /// To each place of a cluster go as many of them as light comes from there: what is near or bright sends more, and less of it is
     /// hidden, as what lies under others is dark.
-    fn cast(&self, parts: &[Polygon], link: &Link, column: &mut Column) {
+    fn cast(&self, receivers: &Receivers<'_>, link: &Link, column: &mut Column) {
         let Column { factors, rays, cast, shares, elements } = column;
+        let &Receivers { parts, first, ref eyes } = receivers;
         rays.clear();
-        let mut random = Random::new(self.seed ^ COLUMN, link.first as u64, link.number);
+        let mut random = Random::new(self.seed ^ COLUMN, first as u64, link.number);
         let begin = random.next();
         let most = factors.iter().fold(0.0, |most: f64, factor| most.max(*factor));
         let chance = most / (SMALL * link.worth);
         if chance < 1.0 && !self.fine {
-            let factor = if random.next() < chance { chance.recip() } else { 0.0 };
-            factors.iter_mut().for_each(|whole| *whole *= factor);
+            if random.next() >= chance {
+                return factors.fill(0.0);
+            }
+            factors.iter_mut().for_each(|whole| *whole *= chance.recip());
         }
+        // Where all rays go is looked up before the first is cast, and what a lookup reads is asked for before that: so they wait for
+        // memory together.
         for (k, (whole, part)) in
             factors.iter_mut().zip(parts).enumerate().filter(|(_, (whole, _))| **whole > 0.0)
         {
             let wanted = ((*whole / link.worth).ceil() as u32).clamp(1, MOST_RAYS);
             if *whole > NEAR_MATTERS * link.worth && self.is_near(part, link.sender) {
                 let near = wanted.max(LEAST_RAYS);
-                *whole *= self.seen_near(part, link, (k, near), cast);
+                *whole *= self.seen_near(receivers, link, (k, near), cast);
                 continue;
             }
+            let shares = shares.iter().skip(k).step_by(LANES * eyes.len()).copied();
             for ray in 0..wanted {
                 let u = (begin + GOLDEN * rays.len() as f64).fract();
-                let shares = &shares[k * elements.len()..(k + 1) * elements.len()];
-                let (part, u) = share(shares, u).map_or((link.sender, u), |(k, u)| (elements[k].part, u));
-                let (spot, random) = (self.spot(part, u), self.random(link, k, ray));
-                rays.push(Ray { patch: k, part, spot, random, ends: None });
+                let (part, u) =
+                    share(shares.clone(), u).map_or((link.sender, u), |(k, u)| (elements[k].part, u));
+                let random = self.random(receivers, link, k, ray);
+                black_box(self.before[self.likely(part, u)]);
+                rays.push(Ray { patch: k, part, u, place: 0, random, ends: None });
             }
+        }
+        for ray in rays.iter_mut() {
+            ray.place = self.at(ray.part, ray.u);
+            black_box(self.clusters.spots.at(ray.place));
         }
         for ray in rays.iter_mut() {
             // Of a cluster, or beyond a horizon, not all faces the patch: what turns its back has no part in the formula either.
             for _ in 0..TRIES {
-                let ends = [
-                    ray.random.point(&parts[ray.patch]),
-                    self.clusters.spots.point(&ray.spot, &mut ray.random),
-                ];
+                let spot = self.clusters.spots.at(ray.place);
+                let ends =
+                    [ray.random.point(&parts[ray.patch]), self.clusters.spots.point(&spot, &mut ray.random)];
                 if kernel::unoccluded(&ends[0], &ends[1]) > 0.0 {
                     ray.ends = Some(ends.map(|end| end.position));
                     break;
                 }
-                ray.spot = self.spot(ray.part, ray.random.next());
+                ray.place = self.at(ray.part, ray.random.next());
             }
         }
         for rays in rays.chunk_by(|a, b| a.patch == b.patch) {
@@ -204,9 +216,10 @@ impl<'a> Factors<'a> {
         }
     }
 
-    /// The patch of a cluster that a part `u` of what comes from it does from, 0 ≤ u < 1.
-    fn spot(&self, cluster: Cluster, u: f64) -> Spot {
-        self.clusters.spots.at(self.at(cluster, u))
+    /// The place that [`at`](Self::at) finds if all patches of the cluster send alike, as they mostly do.
+    fn likely(&self, cluster: Cluster, u: f64) -> usize {
+        let range = self.clusters.tree.range(cluster);
+        range.start + (u * range.len() as f64) as usize
     }
 
     /// The place of the patch of a cluster that a part `u` of what comes from it does from, 0 ≤ u < 1.
@@ -214,8 +227,8 @@ impl<'a> Factors<'a> {
         let range = self.clusters.tree.range(cluster);
         let (from, to) = (self.before[range.start], self.before[range.end]);
         let sent = from + u * (to - from);
-        // Patches of a cluster mostly send alike: it is looked for from where it then would be, farther and farther away.
-        let likely = range.start + (u * range.len() as f64) as usize;
+        // It is looked for from where it is likely to be, farther and farther away.
+        let likely = self.likely(cluster, u);
         let is_before = |place: usize| self.before[place] <= sent;
         let (mut low, mut high, mut step) = (likely, likely + 1, 1);
         while low > range.start && !is_before(low) {
@@ -230,17 +243,24 @@ impl<'a> Factors<'a> {
     }
 
     /// Numbers for a ray of a patch.
-    fn random(&self, link: &Link, k: usize, ray: u32) -> Random {
-        Random::new(self.seed, (link.first + k) as u64, link.number << 5 | u64::from(ray))
+    fn random(&self, receivers: &Receivers<'_>, link: &Link, k: usize, ray: u32) -> Random {
+        Random::new(self.seed, (receivers.first + k) as u64, link.number << 5 | u64::from(ray))
     }
 
     /// What a patch sees of one that is near, as a part: near patches see each other from where the kernel is large, or do not: rays
     /// are weighed by it, and one tells nothing.
-    fn seen_near(&self, part: &Polygon, link: &Link, (k, rays): (usize, u32), cast: &mut u64) -> f64 {
+    fn seen_near(
+        &self,
+        receivers: &Receivers<'_>,
+        link: &Link,
+        (k, rays): (usize, u32),
+        cast: &mut u64,
+    ) -> f64 {
         let (mut all, mut clear) = (0.0, 0.0);
+        let part = &receivers.parts[k];
         let there = &self.clusters.polygons[self.clusters.tree.range(link.sender).start];
         for ray in 0..rays {
-            let mut random = self.random(link, k, ray);
+            let mut random = self.random(receivers, link, k, ray);
             let drawn = (0..TRIES).find_map(|_| {
                 let ends = [part, there].map(|polygon| random.point(polygon));
                 let kernel = kernel::unoccluded(&ends[0], &ends[1]);
@@ -291,76 +311,83 @@ impl<'a> Factors<'a> {
         }
     }
 
-    /// From a patch to elements of area: their sum, and what comes from each, by its brightness.
-    fn to_elements(&self, here: &Polygon, elements: &[Element], shares: &mut Vec<f64>) -> f64 {
-        let n = here.normal();
-        let points: &[DVec3] =
-            if self.fine { &QUARTERS.map(|[s, t]| here.point(s, t)) } else { &[here.centroid()] };
-        let mut sum = 0.0;
-        for element in elements {
-            let factor =
-                points.iter().map(|x| element.sender.seen_from(*x, n)).sum::<f64>() / points.len() as f64;
-            let share = factor * element.beside;
-            sum += if self.shaped { share } else { factor };
-            shares.push(share);
+    /// To elements of area: their sum, and what comes from each, by its brightness.
+    fn to_elements(&self, receivers: &Receivers<'_>, column: &mut Column) {
+        let Column { factors, shares, elements, .. } = column;
+        let eyes = &receivers.eyes;
+        shares.resize(elements.len() * LANES * eyes.len(), 0.0);
+        for (eights, eyes) in eyes.iter().enumerate() {
+            let mut sum = f64x8::ZERO;
+            let shares = shares.chunks_exact_mut(LANES).skip(eights).step_by(receivers.eyes.len());
+            for (element, shares) in elements.iter().zip(shares) {
+                let factor = eyes.to_element(&element.sender);
+                let share = factor * f64x8::splat(element.beside);
+                sum += if self.shaped { share } else { factor };
+                shares.copy_from_slice(share.as_array());
+            }
+            factors.extend(sum.as_array());
         }
-        sum
+        factors.truncate(receivers.parts.len());
     }
 
-    /// To a patch at a place in the order of the tree.
-    fn to_patch(&self, here: &Polygon, (there, place): (&Sender, usize), needed: f64) -> f64 {
-        let distance = here.centroid().distance(there.centre);
-        let size = here.area().max(there.front.length()).sqrt();
-        if distance > POINT * size {
-            return there.seen_from(here.centroid(), here.normal());
-        }
+    /// To a patch at a place in the order of the tree, of which a factor is `needed` to be worth a ray.
+    fn to_patch(
+        &self,
+        receivers: &Receivers<'_>,
+        (sender, place, needed): (&Sender, usize, f64),
+        factors: &mut Vec<f64>,
+    ) {
         let there = &self.clusters.polygons[place];
-        if distance > POINTS * size && !self.fine {
-            let [from, to] = [here, there].map(|polygon| GAUSS.map(|[s, t]| polygon.point(s, t)));
-            let front = there.normal() * there.area();
-            let pairs = from.iter().flat_map(|x| to.iter().map(move |y| *y - *x));
-            let sum: f64 = pairs.map(|between| element_to_element(between, here.normal(), front)).sum();
-            return sum / (from.len() * to.len()) as f64;
+        for (eyes, parts) in receivers.eyes.iter().zip(receivers.parts.chunks(LANES)) {
+            let seen = eyes.to_patch(sender, there, self.fine);
+            let or_near = |(here, factor): (&Polygon, Option<f64>)| {
+                factor.unwrap_or_else(|| to_near_patch(here, there, needed))
+            };
+            factors.extend(parts.iter().zip(seen).map(or_near));
         }
-        // Two planes that meet at an angle β see each other by (1 − cos β)/2 at most.
-        let most = 0.5 * (1.0 - here.normal().dot(there.normal()));
-        let in_front = |a: &Polygon, b: &Polygon| a.vertices().iter().all(|v| b.height_of(*v) >= 0.0);
-        if distance < NEAR * (here.diameter() + there.diameter())
-            && most > needed
-            && in_front(here, there)
-            && in_front(there, here)
-        {
-            let tolerance = 0.01 * needed * here.area();
-            return contour::exchange(here.vertices(), there.vertices(), tolerance).value / here.area();
+        if let Some(own) = place.checked_sub(receivers.first).and_then(|own| factors.get_mut(own)) {
+            *own = 0.0;
         }
-        let mean: f64 = QUARTERS
-            .iter()
-            .map(|[s, t]| lambert::point_to_polygon(here.point(*s, *t), here.normal(), there))
-            .sum();
-        mean / QUARTERS.len() as f64
     }
+}
+
+/// From a patch to another that is near.
+fn to_near_patch(here: &Polygon, there: &Polygon, needed: f64) -> f64 {
+    // Two planes that meet at an angle β see each other by (1 − cos β)/2 at most.
+    let most = 0.5 * (1.0 - here.normal().dot(there.normal()));
+    let in_front = |a: &Polygon, b: &Polygon| a.vertices().iter().all(|v| b.height_of(*v) >= 0.0);
+    let distance = here.centroid().distance(there.centroid());
+    if distance < NEAR * (here.diameter() + there.diameter())
+        && most > needed
+        && in_front(here, there)
+        && in_front(there, here)
+    {
+        let tolerance = 0.01 * needed * here.area();
+        return contour::exchange(here.vertices(), there.vertices(), tolerance).value / here.area();
+    }
+    let mean: f64 = QUARTERS
+        .iter()
+        .map(|[s, t]| lambert::point_to_polygon(here.point(*s, *t), here.normal(), there))
+        .sum();
+    mean / QUARTERS.len() as f64
 }
 
 impl Sender {
-    /// From a point of a surface.
+    /// From a point of a surface to the cluster as an element of area.
     pub fn seen_from(&self, x: DVec3, n: DVec3) -> f64 {
-        element_to_element(self.centre - x, n, self.front)
+        let between = self.centre - x;
+        let square = between.length_squared();
+        let (leaves, arrives) = (between.dot(n), -between.dot(self.front));
+        if leaves > 0.0 && arrives > 0.0 { leaves * arrives / (PI * square * square) } else { 0.0 }
     }
 }
 
-/// From a point with a normal to an element of area so far away, whose normal times its area is `front`.
-fn element_to_element(between: DVec3, n: DVec3, front: DVec3) -> f64 {
-    let square = between.length_squared();
-    let (leaves, arrives) = (between.dot(n), -between.dot(front));
-    if leaves > 0.0 && arrives > 0.0 { leaves * arrives / (PI * square * square) } else { 0.0 }
-}
-
 /// The share that a part `u` of the sum of all is in, 0 ≤ u < 1, and how far in; none if there are no shares.
-fn share(shares: &[f64], u: f64) -> Option<(usize, f64)> {
-    let mut rest = u * shares.iter().sum::<f64>();
+fn share(shares: impl Iterator<Item = f64> + Clone, u: f64) -> Option<(usize, f64)> {
+    let mut rest = u * shares.clone().sum::<f64>();
     let mut last = None;
-    for (k, share) in shares.iter().enumerate().filter(|(_, share)| **share > 0.0) {
-        if rest < *share {
+    for (k, share) in shares.enumerate().filter(|(_, share)| *share > 0.0) {
+        if rest < share {
             return Some((k, rest / share));
         }
         rest -= share;
@@ -371,15 +398,6 @@ fn share(shares: &[f64], u: f64) -> Option<(usize, f64)> {
 
 /// The largest part of a whole that is none.
 const ALMOST_ONE: f64 = 1.0 - f64::EPSILON;
-
-/// The points of a square that integrate cubics.
-const GAUSS: [[f64; 2]; 4] = {
-    const NEAR: f64 = 0.211_324_865_405_187_1;
-    const FAR: f64 = 1.0 - NEAR;
-    [[NEAR, NEAR], [NEAR, FAR], [FAR, NEAR], [FAR, FAR]]
-};
-
-const QUARTERS: [[f64; 2]; 4] = [[0.25, 0.25], [0.25, 0.75], [0.75, 0.25], [0.75, 0.75]];
 
 #[cfg(test)]
 mod tests {
@@ -415,14 +433,14 @@ mod tests {
     #[test]
     fn a_share_is_found_by_its_size() {
         let shares = [0.0, 1.0, 0.0, 3.0, 0.0];
-        let at = |u: f64| share(&shares, u);
+        let at = |u: f64| share(shares.into_iter(), u);
         assert_eq!(at(0.0), Some((1, 0.0)));
         assert_eq!(at(0.125), Some((1, 0.5)));
         assert_eq!(at(0.25), Some((3, 0.0)));
         assert_eq!(at(0.625), Some((3, 0.5)));
         assert_eq!(at(ALMOST_ONE).map(|(k, _)| k), Some(3));
-        assert_eq!(share(&[], 0.5), None);
-        assert_eq!(share(&[0.0], 0.5), None);
+        assert_eq!(share(std::iter::empty(), 0.5), None);
+        assert_eq!(share(std::iter::once(0.0), 0.5), None);
     }
 
     /// Seeds, of which one in ten draws.
@@ -442,16 +460,17 @@ mod tests {
         let seen = pairs.filter(sees).find_map(|(i, j)| {
             let parts = &clusters.polygons[i..=i];
             let mut column = Column::default();
-            let link = Link { first: i, sender: leaves[j], weight: 1.0, number: 0, clear: true, worth: 1.0 };
-            factors(0).column(parts, &link, &mut column);
+            let link = Link { sender: leaves[j], weight: 1.0, number: 0, clear: true, worth: 1.0 };
+            factors(0).column(&factors(0).receivers(parts, i), &link, &mut column);
             let whole = column.factors[0];
-            (whole > 0.0).then_some((parts, link, whole))
+            (whole > 0.0).then_some((i, link, whole))
         });
-        let Some((parts, link, whole)) = seen else { panic!("two patches see each other") };
+        let Some((i, link, whole)) = seen else { panic!("two patches see each other") };
+        let parts = &clusters.polygons[i..=i];
         let link = Link { clear: false, worth: 10.0 * whole / SMALL, ..link };
         let (mut sum, mut drawn, mut column) = (0.0, 0, Column::default());
         for seed in 0..SEEDS {
-            factors(seed).column(parts, &link, &mut column);
+            factors(seed).column(&factors(seed).receivers(parts, i), &link, &mut column);
             sum += column.factors[0];
             drawn += u64::from(column.factors[0] > 0.0);
         }

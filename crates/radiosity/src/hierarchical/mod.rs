@@ -12,6 +12,7 @@ mod build;
 mod clusters;
 mod cut;
 mod error;
+mod eyes;
 mod factor;
 mod kept;
 mod lines;
