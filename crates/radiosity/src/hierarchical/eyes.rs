@@ -62,7 +62,8 @@ impl Eyes {
         let far = beyond(POINT);
         let apart = if fine { far } else { beyond(POINTS) };
         let point = self.seen(&self.centroid, sender.centre, sender.front).to_array();
-        let points = if far == apart { f64x8::ZERO } else { self.seen_from_all(patch, sender.front) }.to_array();
+        let points =
+            if far == apart { f64x8::ZERO } else { self.seen_from_all(patch, sender.front) }.to_array();
         let is = |bits: u32, k: usize| bits >> k & 1 == 1;
         std::array::from_fn(|k| is(apart, k).then(|| if is(far, k) { point[k] } else { points[k] }))
     }

@@ -19,6 +19,7 @@ mod lines;
 mod picture;
 mod random;
 mod relaxed;
+mod sight;
 mod spot;
 mod sweep;
 
