@@ -110,6 +110,7 @@ const GAUSS: [[f64; 2]; 4] = {
     [[NEAR, NEAR], [NEAR, FAR], [FAR, NEAR], [FAR, FAR]]
 };
 
+/// The middles of its quarters.
 pub(super) const QUARTERS: [[f64; 2]; 4] = [[0.25, 0.25], [0.25, 0.75], [0.75, 0.25], [0.75, 0.75]];
 
 #[cfg(test)]

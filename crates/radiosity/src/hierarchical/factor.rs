@@ -1,4 +1,4 @@
-//! F_iC = 1/A_i ∫_{P_i} ∫_C K(x, y) dy dx, from a patch to a cluster: its size by formula, what of it arrives by rays.
+//! F_iC = 1/A_i ∫_{P_i} ∫_C K(x, y) dy dx, from a patch to a cluster: its size by formula; what of it arrives by rays (`sight`).
 
 use super::clusters::{Clusters, Sender};
 use super::cut::ALIKE;

@@ -193,7 +193,11 @@ impl Factors<'_> {
 
     /// Numbers for a ray of a patch.
     fn random(&self, receivers: &Receivers<'_>, link: &Link, k: usize, ray: u32) -> Random {
-        Random::new(self.seed, (receivers.first + k) as u64, link.number << 5 | u64::from(ray))
+        Random::new(
+            self.seed,
+            (receivers.first + k) as u64,
+            link.number * u64::from(MOST_RAYS) + u64::from(ray),
+        )
     }
 
     /// What a patch sees of one that is near, as a part: near patches see each other from where the kernel is large, or do not: rays
