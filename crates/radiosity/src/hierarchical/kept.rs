@@ -13,7 +13,7 @@ use fredholm::value::Value;
 use std::io::{self, Read, Write};
 
 const MAGIC: [u8; 8] = *b"FREDLINK";
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 /// Links of some of the receivers.
 #[derive(Clone, Debug, PartialEq)]

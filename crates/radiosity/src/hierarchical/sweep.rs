@@ -9,16 +9,16 @@ use fredholm::value::Value;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Two halves of a cluster: the first is numbered next to it.
+/// Two halves of a cluster, the second of which is numbered next to the first.
 #[derive(Clone, Copy, Debug)]
 struct Pair {
     cluster: u32,
-    second: u32,
+    first: u32,
     /// The part of the area that the first half has.
     part: f64,
 }
 
-/// A cluster and all below, which one thread goes up.
+/// All that is below a cluster, which one thread goes up.
 #[derive(Debug)]
 struct Part {
     clusters: Range<usize>,
@@ -31,7 +31,7 @@ pub(super) struct Ascent {
     /// The patch that each cluster is, or [`SEVERAL`].
     patches: Vec<u32>,
     parts: Vec<Part>,
-    /// What is above the parts.
+    /// The clusters that the parts are below, and all above.
     top: Vec<Pair>,
 }
 
@@ -44,9 +44,9 @@ const TOGETHER: usize = 1024;
 impl Ascent {
     pub fn new(tree: &ClusterTree<6>, wholes: &[Whole]) -> Self {
         let halves = |cluster: Cluster| {
-            tree.children(cluster).map(|[a, b]| Pair {
+            tree.children(cluster).map(|[a, _]| Pair {
                 cluster: cluster.index() as u32,
-                second: b.index() as u32,
+                first: a.index() as u32,
                 part: wholes[a.index()].area / wholes[cluster.index()].area,
             })
         };
@@ -55,32 +55,27 @@ impl Ascent {
             None => tree.members(*cluster)[0] as u32,
             Some(_) => SEVERAL,
         };
-        // Those below a cluster are numbered next to it: the last of them is found going down the second halves.
-        let last = |cluster: Cluster| {
-            std::iter::successors(Some(cluster), |at| tree.children(*at).map(|[_, b]| b))
-                .last()
-                .unwrap_or(cluster)
-        };
+        // There are 2 m - 2 clusters below one of m patches, numbered from its first half on.
         let part = |cluster: Cluster| {
-            let below = cluster.index()..last(cluster).index() + 1;
-            Part {
-                pairs: clusters[below.clone()].iter().copied().filter_map(halves).collect(),
-                clusters: below,
-            }
+            let [first, _] = tree.children(cluster)?;
+            let below = first.index()..first.index() + 2 * tree.range(cluster).len() - 2;
+            let pairs = clusters[below.clone()].iter().copied().filter_map(halves).collect();
+            Some(Part { clusters: below, pairs })
         };
-        let is_above = |cluster: &Cluster| tree.range(*cluster).len() > TOGETHER;
+        let roots = up_to(tree, TOGETHER);
+        let above = clusters.iter().copied().filter(|cluster| tree.range(*cluster).len() > TOGETHER);
         Self {
             patches: clusters.iter().map(patch).collect(),
-            parts: up_to(tree, TOGETHER).into_iter().map(part).collect(),
-            top: clusters.iter().copied().filter(is_above).filter_map(halves).collect(),
+            top: above.chain(roots.iter().copied()).filter_map(halves).collect(),
+            parts: roots.into_iter().filter_map(part).collect(),
         }
     }
 
     /// The mean over each cluster of what is given by patch, weighted by area.
     pub fn means<V: Value>(&self, values: &[V]) -> Vec<V> {
-        let patches = self.patches.par_iter().with_min_len(TOGETHER);
-        let value = |patch: &u32| values.get(*patch as usize).copied().unwrap_or(V::splat(0.0));
-        let mut means: Vec<V> = patches.map(value).collect();
+        // Of a single patch there is nothing below; all other means are found.
+        let Some(only) = values.first() else { return Vec::new() };
+        let mut means = vec![*only; self.patches.len()];
         let (mut rest, mut begin) = (&mut means[..], 0);
         let mut parts = Vec::with_capacity(self.parts.len());
         for Part { clusters, pairs } in &self.parts {
@@ -88,17 +83,24 @@ impl Ascent {
             parts.push((&mut part[clusters.start - begin..], clusters.start, pairs));
             (rest, begin) = (after, clusters.end);
         }
-        parts.into_par_iter().for_each(|(means, first, pairs)| rise(means, first, pairs));
+        parts.into_par_iter().for_each(|(means, first, pairs)| {
+            for (mean, patch) in means.iter_mut().zip(&self.patches[first..]) {
+                if let Some(value) = values.get(*patch as usize) {
+                    *mean = *value;
+                }
+            }
+            rise(means, first, pairs);
+        });
         rise(&mut means, 0, &self.top);
         means
     }
 }
 
-/// The means over clusters, from those over their halves; the first of the slice has the number `first`.
-fn rise<V: Value>(means: &mut [V], first: usize, pairs: &[Pair]) {
-    for Pair { cluster, second, part } in pairs.iter().rev() {
-        let (cluster, second) = (*cluster as usize - first, *second as usize - first);
-        means[cluster] = means[cluster + 1] * *part + means[second] * (1.0 - *part);
+/// The means over clusters, from those over their halves; the first of the slice has the number `begin`.
+fn rise<V: Value>(means: &mut [V], begin: usize, pairs: &[Pair]) {
+    for Pair { cluster, first, part } in pairs.iter().rev() {
+        let (cluster, first) = (*cluster as usize - begin, *first as usize - begin);
+        means[cluster] = means[first] * *part + means[first + 1] * (1.0 - *part);
     }
 }
 
@@ -113,20 +115,19 @@ impl Hierarchical {
 
     /// What each patch gathers from means over clusters.
     pub(super) fn gather_means<V: Value>(&self, means: &[V], out: &mut [V]) {
-        let tree = &self.clusters.tree;
         let mut in_order = vec![V::splat(0.0); out.len()];
         let mut rest = &mut in_order[..];
         let mut tasks = Vec::with_capacity(self.numbers.len().div_ceil(IN_A_ROW));
         for numbers in self.numbers.chunks(IN_A_ROW) {
-            let range = |k: usize| tree.range(self.block_at(&numbers[k]).receiver());
-            let (own, after) = rest.split_at_mut(range(numbers.len() - 1).end - range(0).start);
+            let patches = numbers.iter().map(|at| self.block_at(at).patches()).sum();
+            let (own, after) = rest.split_at_mut(patches);
             tasks.push((numbers, own));
             rest = after;
         }
         tasks.into_par_iter().for_each(|(numbers, mut own)| {
             for at in numbers {
                 let block = self.block_at(at);
-                let (sums, after) = std::mem::take(&mut own).split_at_mut(tree.range(block.receiver()).len());
+                let (sums, after) = std::mem::take(&mut own).split_at_mut(block.patches());
                 block.gather(means, sums);
                 own = after;
             }

@@ -65,8 +65,8 @@ fn length(vector: impl Iterator<Item = f64>) -> f64 {
 pub struct Cluster(u32);
 
 impl Cluster {
-    /// Its number, from 0 to [`ClusterTree::len`] − 1: a cluster comes before its children, and next come those of the first, then
-    /// of the second.
+    /// Its number, from 0 to [`ClusterTree::len`] − 1: a cluster comes before its children, which are numbered one after the other;
+    /// next come all below the first, then all below the second.
     pub fn index(self) -> usize {
         self.0 as usize
     }
@@ -91,8 +91,8 @@ struct Node {
     /// Its places.
     start: u32,
     end: u32,
-    /// The second child; the first one is the next node. `None` for a leaf.
-    second: Option<NonZeroU32>,
+    /// The first child; the second is the next node: whoever reads of one reads of the other, mostly. `None` for a leaf.
+    child: Option<NonZeroU32>,
 }
 
 /// A point that is nowhere.
@@ -139,13 +139,15 @@ impl<const D: usize> ClusterTree<D> {
         }
         let leaf = leaf.max(1);
         let mut order: Vec<usize> = (0..boxes.len()).collect();
-        let clusters = if boxes.is_empty() { 0 } else { count(boxes.len(), leaf) };
+        let clusters = if boxes.is_empty() { 0 } else { 1 + below(boxes.len(), leaf) };
         let mut nodes = vec![Node::default(); clusters];
         let mut bounds = vec![Bounds::of_point([0.0; D]); clusters];
-        if !boxes.is_empty() {
+        if let (Some((root, nodes)), Some((whole, bounds))) =
+            (nodes.split_first_mut(), bounds.split_first_mut())
+        {
             let centres: Vec<_> = boxes.iter().map(Bounds::centre).collect();
             let cutting = Cutting { boxes, centres: &centres, leaf };
-            cutting.cut((0, 0), &mut order, (&mut nodes, &mut bounds));
+            cutting.cut((0, 1), &mut order, (root, whole), (nodes, bounds));
         }
         Ok(Self { order, nodes, bounds })
     }
@@ -188,7 +190,7 @@ impl<const D: usize> ClusterTree<D> {
 
     /// The two parts of a cluster; `None` for a leaf.
     pub fn children(&self, cluster: Cluster) -> Option<[Cluster; 2]> {
-        self.nodes[cluster.index()].second.map(|second| [Cluster(cluster.0 + 1), Cluster(second.get())])
+        self.nodes[cluster.index()].child.map(|first| [0, 1].map(|k| Cluster(first.get() + k)))
     }
 
     /// All clusters, parents before their children.
@@ -201,9 +203,9 @@ impl<const D: usize> ClusterTree<D> {
         self.top_down().rev()
     }
 
-    /// The clusters that are not cut, in the order of their ranges.
+    /// The clusters that are not cut, in the order of their ranges: a second child, which has no fewer points, is no leaf unless the first is.
     pub fn leaves(&self) -> impl Iterator<Item = Cluster> + '_ {
-        self.top_down().filter(|cluster| self.nodes[cluster.index()].second.is_none())
+        self.top_down().filter(|cluster| self.nodes[cluster.index()].child.is_none())
     }
 }
 
@@ -213,9 +215,9 @@ fn no_box<const D: usize>(index: usize, bounds: &Bounds<D>) -> ClusterError {
     ClusterError::NoBox { index, axis, low: bounds.low[axis], high: bounds.high[axis] }
 }
 
-/// How many clusters n points make: their halves are known before they are cut.
-fn count(n: usize, leaf: usize) -> usize {
-    if n <= leaf { 1 } else { 1 + count(n / 2, leaf) + count(n - n / 2, leaf) }
+/// How many clusters are below one of n points: their halves are known before they are cut.
+fn below(n: usize, leaf: usize) -> usize {
+    if n <= leaf { 0 } else { 2 + below(n / 2, leaf) + below(n - n / 2, leaf) }
 }
 
 struct Cutting<'a, const D: usize> {
@@ -225,37 +227,44 @@ struct Cutting<'a, const D: usize> {
 }
 
 impl<const D: usize> Cutting<'_, D> {
-    /// Cuts the points `order`, which begin at place `first`, into nodes and boxes, the first of which is number `number`.
+    /// Cuts the points `order`, which begin at place `first`, of a node and its box, into those below, the first of which is number
+    /// `number`.
     fn cut(
         &self,
         (first, number): (usize, usize),
         order: &mut [usize],
+        (node, whole): (&mut Node, &mut Bounds<D>),
         (nodes, bounds): (&mut [Node], &mut [Bounds<D>]),
     ) {
         let n = order.len();
-        let ((node, below), (whole, parts)) = (nodes.split_at_mut(1), bounds.split_at_mut(1));
         let [start, end] = [first, first + n].map(|place| place as u32);
-        node[0] = Node { start, end, second: None };
-        if n <= self.leaf {
+        *node = Node { start, end, child: None };
+        let (Some(([one, other], nodes)), Some(([left, right], bounds))) =
+            (nodes.split_first_chunk_mut(), bounds.split_first_chunk_mut())
+        else {
             order.sort_unstable();
-            whole[0] = union(order.iter().map(|i| self.boxes[*i]));
+            *whole = union(order.iter().map(|i| self.boxes[*i]));
             return;
-        }
+        };
+        node.child = NonZeroU32::new(number as u32);
         self.halve(order);
         let half = n / 2;
-        let size = count(half, self.leaf);
-        let ((left, right), (some, others)) = (order.split_at_mut(half), below.split_at_mut(size));
-        let second = number + 1 + size;
-        node[0].second = NonZeroU32::new(second as u32);
-        let (one_part, other_part) = parts.split_at_mut(size);
-        let mut one = || self.cut((first, number + 1), left, (some, one_part));
-        let mut other = || self.cut((first + half, second), right, (others, other_part));
-        if n < ALONE {
-            (one(), other())
-        } else {
-            rayon::join(one, other)
+        let size = below(half, self.leaf);
+        let (some, others) = order.split_at_mut(half);
+        let ((nodes, next_nodes), (bounds, next_bounds)) =
+            (nodes.split_at_mut(size), bounds.split_at_mut(size));
+        let number = number + 2;
+        let mut cut_one = || self.cut((first, number), some, (one, left), (nodes, bounds));
+        let mut cut_other = || {
+            let place = (first + half, number + size);
+            self.cut(place, others, (other, right), (next_nodes, next_bounds));
         };
-        whole[0] = parts[0].union(&parts[size]);
+        if n < ALONE {
+            (cut_one(), cut_other())
+        } else {
+            rayon::join(cut_one, cut_other)
+        };
+        *whole = left.union(right);
     }
 
     /// Brings the half that comes first along the longest side to the front; of equals the one with the lesser number.
@@ -312,7 +321,7 @@ mod tests {
                 let inside = |i: &usize| tree.bounds(cluster).distance(&Bounds::of_point(points[*i])) == 0.0;
                 assert!(tree.members(cluster).iter().all(inside));
                 if let Some([one, other]) = tree.children(cluster) {
-                    assert!(one > cluster && other > one && other.index() < tree.len());
+                    assert!(one > cluster && other.index() == one.index() + 1 && other.index() < tree.len());
                     let (all, first, second) = (tree.range(cluster), tree.range(one), tree.range(other));
                     assert_eq!((all.start, first.end, all.end), (first.start, second.start, second.end));
                     assert!(second.len() - first.len() <= 1);
