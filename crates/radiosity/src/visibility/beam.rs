@@ -6,7 +6,7 @@
 //! as those of one ray are.
 
 use super::bvh::{LEAF, Node, Query};
-use super::facet::{Facet, Frame};
+use super::facet::{Facet, Frame, Plane};
 use super::packet::{BOX_MARGIN, MARGIN, Packet, SLOWEST, Segments, Triangles, cross, dot};
 use super::ray::{bits, blocker};
 use glam::{DVec3, Vec3};
@@ -269,6 +269,12 @@ impl<'a> Beam<'a> {
         found & self.open
     }
 
+    /// Whether a plane has all starts on it, or all ends: those of the patches that light goes between have, and cut nothing.
+    #[inline(always)]
+    fn ends_on(&self, plane: &Plane) -> bool {
+        [0, 1].iter().any(|end| self.ends.iter().all(|ends| plane.is_at(self.frame.point(ends[*end]))))
+    }
+
     /// Looks which of some segments a packet hides, segment by segment.
     fn meet_each(&mut self, packet: &Packet, segments: u64) {
         self.work += segments.count_ones() as usize;
@@ -360,10 +366,14 @@ impl Query for Beam<'_> {
             self.meet_each(packet, inside);
         } else {
             let [met, all] = self.sort(&packet.triangles);
+            let in_the_way = |&lane: &usize| !self.ends_on(&packet.planes[lane]);
             if all != 0 {
                 self.hidden |= self.open;
                 self.open = 0;
-            } else if inside.count_ones() <= met.count_ones() * self.eights.len() as u32 {
+                return ControlFlow::Break(());
+            }
+            let met = bits(met.into()).filter(in_the_way).fold(0_u32, |met, lane| met | 1 << lane);
+            if inside.count_ones() <= met.count_ones() * self.eights.len() as u32 {
                 self.meet_each(packet, inside);
             } else {
                 bits(u64::from(met)).for_each(|lane| self.meet_all(packet, lane));

@@ -63,6 +63,12 @@ impl Plane {
         self.normal.dot(point) - self.offset
     }
 
+    /// Whether a point is on it, no farther than [`ON_PLANE`].
+    #[inline(always)]
+    pub(super) fn is_at(&self, point: DVec3) -> bool {
+        self.height_of(point).abs() <= ON_PLANE
+    }
+
     /// The heights of s and t, if these are on different sides, both farther than [`ON_PLANE`].
     #[inline(always)]
     pub(super) fn parts(&self, s: DVec3, t: DVec3) -> Option<[f64; 2]> {
