@@ -6,9 +6,6 @@
 
 use super::Hierarchical;
 use super::block::{Kept, Small};
-use super::factor::Factor;
-use super::large::Large;
-use super::side::Side;
 use crate::value::Value;
 use rayon::prelude::*;
 
@@ -34,46 +31,40 @@ impl Hierarchical {
         out.par_iter_mut().zip(&self.place).for_each(|(value, place)| *value = image[*place]);
     }
 
-    /// The sides that values come from and go to.
-    fn sides(&self, way: Way) -> (&Side, &Side) {
-        match way {
-            Way::Forward => (&self.columns, &self.rows),
-            Way::Transposed => (&self.rows, &self.columns),
-        }
-    }
-
-    /// σ_l q_lᵀ u of the large blocks, one after another as `self.firsts` has it.
+    /// σ_l q_lᵀ u of the large blocks, one after another.
     fn moments<V: Value>(&self, way: Way, u: &[V]) -> Vec<V> {
-        let from = self.sides(way).0;
+        let from = self.large.sides(way).0;
         let mut parts = vec![V::splat(0.0); from.moments()];
         from.split(&mut parts).into_par_iter().enumerate().with_max_len(1).for_each(|(strip, mut sums)| {
-            for block in from.blocks(strip).map(|number| &self.large[number]) {
-                let factor = factors(block, way).0;
-                let places = self.strips.part(factor.range(), strip);
-                let (own, rest) = sums.split_at_mut(block.values.len());
-                factor.piece(&places).gather(&u[places], own);
+            for (block, piece) in from.pieces(strip) {
+                let places = self.strips.part(from.range(block), strip);
+                let (own, rest) = sums.split_at_mut(self.large.span(block).len());
+                piece.gather(&u[places], own);
                 sums = rest;
             }
         });
-        let mut moments = vec![V::splat(0.0); self.firsts[self.large.len()]];
-        for (number, block) in self.large.iter().enumerate() {
-            let own = &mut moments[self.firsts[number]..self.firsts[number + 1]];
-            for part in from.parts(number) {
-                own.iter_mut().zip(&parts[*part..]).for_each(|(sum, part)| *sum += *part);
+        let values = self.large.values();
+        let mut moments = vec![V::splat(0.0); values.len()];
+        for block in 0..self.large.len() {
+            let own = &mut moments[self.large.span(block)];
+            for part in from.parts(block, &self.strips) {
+                own.iter_mut().zip(&parts[part..]).for_each(|(sum, part)| *sum += *part);
             }
-            own.iter_mut().zip(&block.values).for_each(|(moment, value)| *moment = *moment * *value);
         }
+        moments.iter_mut().zip(values).for_each(|(moment, value)| *moment = *moment * *value);
         moments
     }
 
     /// Adds to the values of a strip what all its blocks bring.
     fn receive<V: Value>(&self, way: Way, strip: usize, (u, moments): (&[V], &[V]), image: &mut [V]) {
         let first = self.strips.range(strip).start;
-        for number in self.sides(way).1.blocks(strip) {
-            let factor = factors(&self.large[number], way).1;
-            let places = self.strips.part(factor.range(), strip);
-            let own = &moments[self.firsts[number]..self.firsts[number + 1]];
-            factor.piece(&places).spread(own, &mut image[places.start - first..places.end - first]);
+        let to = self.large.sides(way).1;
+        for (block, piece) in to.pieces(strip) {
+            let places = self.strips.part(to.range(block), strip);
+            piece.spread(
+                &moments[self.large.span(block)],
+                &mut image[places.start - first..places.end - first],
+            );
         }
         let mut scratch = Vec::new();
         let mut add = |block: Small<'_>| {
@@ -91,14 +82,6 @@ impl Hierarchical {
             Way::Forward => self.shelves[strip].blocks().for_each(&mut add),
             Way::Transposed => self.beside(strip).for_each(&mut add),
         }
-    }
-}
-
-/// The factors that values come from and go to.
-fn factors(block: &Large, way: Way) -> (&Factor, &Factor) {
-    match way {
-        Way::Forward => (&block.right, &block.left),
-        Way::Transposed => (&block.left, &block.right),
     }
 }
 

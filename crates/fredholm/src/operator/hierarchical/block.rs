@@ -1,6 +1,6 @@
 //! A block of F̃: D, or Σ_l σ_l p_l q_lᵀ with σ_l in double precision and those p_l, q_l that need it.
 
-use super::factor::Piece;
+use super::piece::Piece;
 use super::recompress::Singular;
 use std::ops::Range;
 

@@ -3,18 +3,24 @@
 
 use crate::operator::Entry;
 use crate::value::Value;
+use std::ops::Range;
 use wide::f64x8;
 
 /// Rows of a tile, two vectors of sums; the last one has what is left.
 const TILE: usize = 16;
 
-/// The numbers of a matrix given column after column, in tiles.
-pub(super) fn in_tiles(columns: &[f64], m: usize) -> impl Iterator<Item = f64> + use<'_> {
-    let firsts = (0..m).step_by(TILE);
-    firsts.flat_map(move |first| {
+/// Puts some rows of a matrix given column after column, m numbers each, after other tiles.
+pub(super) fn add_tiles<T>(
+    tiles: &mut Vec<T>,
+    (columns, m): (&[f64], usize),
+    rows: Range<usize>,
+    as_kept: impl Fn(f64) -> T,
+) {
+    for first in rows.clone().step_by(TILE) {
+        let tile = first..(first + TILE).min(rows.end);
         let columns = columns.chunks_exact(m);
-        columns.flat_map(move |column| column[first..(first + TILE).min(m)].iter().copied())
-    })
+        columns.for_each(|column| tiles.extend(column[tile.clone()].iter().map(|number| as_kept(*number))));
+    }
 }
 
 /// Row i of m rows of k numbers.
@@ -129,7 +135,8 @@ mod tests {
 
     fn check<V: Value>(m: usize, k: usize) {
         let columns: Vec<f64> = (0..m * k).map(number).collect();
-        let tiles: Vec<f64> = in_tiles(&columns, m).collect();
+        let mut tiles = Vec::new();
+        add_tiles(&mut tiles, (&columns, m), 0..m, |number| number);
         let packed: Vec<f32> = tiles.iter().map(|number| *number as f32).collect();
         for i in 0..m {
             assert!(row(&tiles, i, (m, k)).copied().eq((0..k).map(|l| columns[l * m + i])));

@@ -3,7 +3,6 @@
 use super::Hierarchical;
 use super::action::Way;
 use super::block::{Kept, Small};
-use super::large::Large;
 use crate::operator::{Columns, Line, Matrix, Rows};
 use crate::value::Value;
 
@@ -13,11 +12,11 @@ impl Hierarchical {
         let place = self.place[number];
         let strip = self.strips.of(place);
         let mut entries = vec![0.0; self.order.len()];
-        let (side, small): (_, Vec<Small<'_>>) = match way {
-            Way::Forward => (&self.rows, self.shelves[strip].blocks().collect()),
-            Way::Transposed => (&self.columns, self.beside(strip).collect()),
+        let small: Vec<Small<'_>> = match way {
+            Way::Forward => self.shelves[strip].blocks().collect(),
+            Way::Transposed => self.beside(strip).collect(),
         };
-        for block in side.blocks(strip).map(|number| &self.large[number]) {
+        for (block, _) in self.large.sides(way).1.pieces(strip) {
             self.add_large(way, block, place, &mut entries);
         }
         for block in small {
@@ -28,17 +27,17 @@ impl Hierarchical {
     }
 
     /// Adds what a large block has of a row or column.
-    fn add_large(&self, way: Way, Large { left, values, right }: &Large, place: usize, entries: &mut [f64]) {
-        let (own, other) = if way == Way::Forward { (left, right) } else { (right, left) };
-        if !own.range().contains(&place) {
+    fn add_large(&self, way: Way, block: usize, place: usize, entries: &mut [f64]) {
+        let (other, own) = self.large.sides(way);
+        if !own.range(block).contains(&place) {
             return;
         }
+        let values = &self.large.values()[self.large.span(block)];
         let mut row = vec![0.0; values.len()];
-        own.row(place, &self.strips, &mut row);
+        own.row(block, place, &self.strips, &mut row);
         row.iter_mut().zip(values).for_each(|(entry, value)| *entry *= value);
-        for strip in self.strips.across(other.range()) {
-            let places = self.strips.part(other.range(), strip);
-            other.piece(&places).spread(&row, &mut entries[places]);
+        for (strip, piece) in other.across(block, &self.strips) {
+            piece.spread(&row, &mut entries[self.strips.part(other.range(block), strip)]);
         }
     }
 }

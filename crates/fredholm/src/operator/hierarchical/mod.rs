@@ -36,13 +36,13 @@ mod build;
 mod cluster;
 mod cross;
 mod entries;
-mod factor;
 mod kernels;
 mod large;
 mod lines;
 mod options;
 mod partition;
 mod picture;
+mod piece;
 mod plan;
 mod recompress;
 mod shelf;
@@ -59,9 +59,8 @@ use crate::discretize::Coupling;
 use crate::operator::NotFinite;
 use block::{Kept, Small};
 use entries::Entries;
-use large::Large;
+use large::LargeBlocks;
 use shelf::Shelf;
-use side::Side;
 use strips::Strips;
 
 /// F̃ in blocks, made by [`Plan::assemble`].
@@ -77,11 +76,7 @@ pub struct Hierarchical {
     /// By strip of columns: the shelves and the numbers of those blocks.
     beside: Vec<Vec<(u32, u32)>>,
     /// The other blocks.
-    large: Vec<Large>,
-    /// By large block: where its moments begin among those of all; after the last one their number.
-    firsts: Vec<usize>,
-    rows: Side,
-    columns: Side,
+    large: LargeBlocks,
     diagonal: Vec<f64>,
     statistics: Statistics,
 }
@@ -91,7 +86,7 @@ struct Parts {
     order: Vec<usize>,
     strips: Strips,
     shelves: Vec<Shelf>,
-    large: Vec<Large>,
+    large: LargeBlocks,
 }
 
 impl Hierarchical {
@@ -100,24 +95,8 @@ impl Hierarchical {
         let Parts { order, strips, shelves, large } = parts;
         let mut place = vec![0; order.len()];
         order.iter().enumerate().for_each(|(k, number)| place[*number] = k);
-        let mut firsts = vec![0];
-        large.iter().for_each(|block| firsts.push(firsts[firsts.len() - 1] + block.values.len()));
-        let rows = Side::new(&large, &strips, |block| block.left.range());
-        let columns = Side::new(&large, &strips, |block| block.right.range());
         let (diagonal, beside) = (diagonal(&shelves, &order), beside(&shelves, &strips));
-        let mut operator = Self {
-            order,
-            place,
-            strips,
-            shelves,
-            beside,
-            large,
-            firsts,
-            rows,
-            columns,
-            diagonal,
-            statistics,
-        };
+        let mut operator = Self { order, place, strips, shelves, beside, large, diagonal, statistics };
         operator.statistics.bytes = operator.bytes() as u64;
         Ok(operator)
     }
@@ -129,11 +108,10 @@ impl Hierarchical {
 
     /// Bytes of all that is kept.
     fn bytes(&self) -> usize {
-        let blocks =
-            self.shelves.iter().map(Shelf::bytes).chain(self.large.iter().map(Large::bytes)).sum::<usize>();
+        let blocks = self.shelves.iter().map(Shelf::bytes).sum::<usize>() + self.large.bytes();
         let beside: usize = self.beside.iter().map(|list| size_of_val(list.as_slice())).sum();
-        let lists = self.order.len() + self.place.len() + self.firsts.len() + self.diagonal.len();
-        blocks + beside + size_of::<usize>() * lists + self.rows.bytes() + self.columns.bytes()
+        let lists = self.order.len() + self.place.len() + self.diagonal.len();
+        blocks + beside + size_of::<usize>() * lists
     }
 
     /// The small blocks that have columns in a strip.

@@ -58,8 +58,11 @@ impl Hierarchical {
             Kept::Dense(_) => (block.rows, block.columns, None),
             Kept::LowRank { values, .. } => (block.rows, block.columns, Some(values.len())),
         });
-        let large = self.large.iter();
-        small.chain(large.map(|block| (block.left.range(), block.right.range(), Some(block.values.len()))))
+        let large = (0..self.large.len()).map(|block| {
+            let (rows, columns) = self.large.outline(block);
+            (rows, columns, Some(self.large.span(block).len()))
+        });
+        small.chain(large)
     }
 
     fn draw(&self, span: (&Range<usize>, &Range<usize>), rank: Option<usize>, body: &mut String) {

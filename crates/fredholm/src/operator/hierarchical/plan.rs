@@ -1,10 +1,10 @@
 //! What will be done, and what memory it takes, before it is done.
 
-use super::block::{Content, Made};
+use super::block::Made;
 use super::build::{Builder, compressed, dense_in_full, in_full};
 use super::cluster::ClusterTree;
 use super::entries::{Entries, chosen};
-use super::large::Large;
+use super::large::{LargeBlocks, is_large};
 use super::options::{HierarchicalError, Options};
 use super::partition::{Pair, partition};
 use super::shelf::Shelf;
@@ -82,12 +82,19 @@ impl<'a, C: Coupling, const D: usize> Plan<'a, C, D> {
             progress(rows.len() * columns.len());
             Ok(blocks)
         };
-        let (small, large) = self.tasks(&strips);
-        // The large ones first: then no core waits for the last of them.
-        let large = in_order(large.len(), |k| {
-            let blocks = build(&self.pairs[large[k]])?;
-            Ok(blocks.into_iter().map(|made| kept(made, &strips)).collect::<Vec<_>>())
-        })?;
+        let (small, tasks) = self.tasks(&strips);
+        // The large ones first: then no core waits for the last of them. Some are made and put in their strips before the next, so that
+        // not all of their numbers are twice in memory.
+        let (mut large, mut cut) = (LargeBlocks::new(&strips), Vec::new());
+        for some in tasks.chunks(AT_ONCE * rayon::current_num_threads()) {
+            let made = in_order(some.len(), |k| build(&self.pairs[some[k]]))?;
+            // Parts of a block that was cut may be of one strip of rows and one of columns.
+            let (found, small): (Vec<_>, Vec<_>) =
+                made.into_iter().flatten().partition(|made| is_large(made, &strips));
+            large.extend(&found, &strips);
+            cut.extend(small);
+        }
+        large.close();
         let mut shelves = in_order(strips.len(), |strip| {
             let mut shelf = Shelf::default();
             for pair in &small[strip] {
@@ -95,15 +102,9 @@ impl<'a, C: Coupling, const D: usize> Plan<'a, C, D> {
             }
             Ok(shelf)
         })?;
-        let mut blocks = Vec::new();
-        for made in large.into_iter().flatten() {
-            match made {
-                Kept::Large(block) => blocks.push(block),
-                Kept::Small(made) => shelves[strips.of(made.rows.start)].push(made),
-            }
-        }
+        cut.into_iter().for_each(|made| shelves[strips.of(made.rows.start)].push(made));
         shelves.iter_mut().for_each(Shelf::close);
-        let parts = Parts { order: self.tree.order().to_vec(), strips, shelves, large: blocks };
+        let parts = Parts { order: self.tree.order().to_vec(), strips, shelves, large };
         Ok(Hierarchical::new(parts, &entries)?)
     }
 
@@ -140,7 +141,7 @@ impl<'a, C: Coupling, const D: usize> Plan<'a, C, D> {
 
     /// Bytes of the dense blocks, and of the others by the mean of what a few of their size take for each row and column.
     fn estimate(&self) -> Result<u64, NotFinite> {
-        let overhead = size_of::<Large>();
+        let overhead = size_of::<Made>();
         let entry = if dense_in_full(self.options.tolerance) { 8 } else { 4 };
         let (mut bytes, mut sizes) =
             (6 * size_of::<usize>() * self.tree.order().len(), Vec::<Vec<Span>>::new());
@@ -188,23 +189,8 @@ impl<'a, C: Coupling, const D: usize> Plan<'a, C, D> {
     }
 }
 
-/// Where a block will be kept.
-enum Kept {
-    Large(Large),
-    /// Of one strip of rows and one of columns, as parts of a block may be that was cut.
-    Small(Made),
-}
-
-fn kept(made: Made, strips: &Strips) -> Kept {
-    match &made.content {
-        Content::LowRank(singular)
-            if strips.across(&made.rows).len() + strips.across(&made.columns).len() > 2 =>
-        {
-            Kept::Large(Large::new(&made, singular, strips))
-        }
-        _ => Kept::Small(made),
-    }
-}
+/// Large blocks that each thread makes before they are put in their strips.
+const AT_ONCE: usize = 16;
 
 /// What `task` makes of 0, …, n − 1, on all cores.
 fn in_order<T: Send>(

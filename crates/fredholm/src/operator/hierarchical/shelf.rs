@@ -2,8 +2,8 @@
 //! the action goes through them.
 
 use super::block::{Content, Kept, Made, Small};
-use super::factor::Piece;
-use super::kernels::in_tiles;
+use super::kernels::add_tiles;
+use super::piece::Piece;
 use std::ops::Range;
 
 /// The blocks in a strip of rows.
@@ -49,8 +49,8 @@ impl Shelf {
     /// Keeps columns of m rows, the first `full` of them in double precision.
     fn add(&mut self, columns: &[f64], m: usize, full: usize) {
         let (full, packed) = columns.split_at(full * m);
-        self.full.extend(in_tiles(full, m));
-        self.packed.extend(in_tiles(packed, m).map(|number| number as f32));
+        add_tiles(&mut self.full, (full, m), 0..m, |number| number);
+        add_tiles(&mut self.packed, (packed, m), 0..m, |number| number as f32);
     }
 
     /// Gives back what was taken for blocks that did not come.

@@ -2,9 +2,10 @@
 //! making it.
 
 use super::Parts;
+use super::action::Way;
 use super::block::{Kept, Small};
 use super::entries::{Entries, chosen};
-use super::large::Large;
+use super::large::LargeBlocks;
 use super::strips::Strips;
 use crate::discretize::Coupling;
 use crate::operator::NotFinite;
@@ -71,14 +72,14 @@ pub(super) fn statistics<C: Coupling>(
     parts: &Parts,
     entries: &Entries<'_, C>,
 ) -> Result<Statistics, NotFinite> {
-    let looks = Looks { entries, strips: &parts.strips };
+    let looks = Looks { entries, strips: &parts.strips, large: &parts.large };
     let small = parts.shelves.par_iter().enumerate().with_max_len(1).map(|(strip, shelf)| {
         let blocks = shelf.blocks().enumerate();
         blocks
             .map(|(k, block)| looks.small(block, (strip as u64) << 32 | k as u64))
             .collect::<Result<Vec<_>, _>>()
     });
-    let large = parts.large.par_iter().enumerate().map(|(k, block)| looks.large(block, !(k as u64)));
+    let large = (0..parts.large.len()).into_par_iter().map(|block| looks.large(block, !(block as u64)));
     let (small, large) = (small.collect::<Result<Vec<_>, _>>()?, large.collect::<Result<Vec<_>, _>>()?);
     let all: Vec<Part> = small.into_iter().flatten().chain(large).collect();
     let sum = |of: fn(&Part) -> f64| all.iter().map(of).sum::<f64>();
@@ -100,6 +101,7 @@ pub(super) fn statistics<C: Coupling>(
 struct Looks<'a, C> {
     entries: &'a Entries<'a, C>,
     strips: &'a Strips,
+    large: &'a LargeBlocks,
 }
 
 impl<C: Coupling> Looks<'_, C> {
@@ -120,10 +122,12 @@ impl<C: Coupling> Looks<'_, C> {
         }
     }
 
-    fn large(&self, Large { left, values, right }: &Large, stream: u64) -> Result<Part, NotFinite> {
-        let p = |i: usize, p: &mut [f64]| left.row(i, self.strips, p);
-        let q = |j: usize, q: &mut [f64]| right.row(j, self.strips, q);
-        self.low_rank((left.range(), right.range()), values, (p, q), stream)
+    fn large(&self, block: usize, stream: u64) -> Result<Part, NotFinite> {
+        let (columns, rows) = self.large.sides(Way::Forward);
+        let p = |i: usize, p: &mut [f64]| rows.row(block, i, self.strips, p);
+        let q = |j: usize, q: &mut [f64]| columns.row(block, j, self.strips, q);
+        let values = &self.large.values()[self.large.span(block)];
+        self.low_rank(self.large.outline(block), values, (p, q), stream)
     }
 
     /// Of Σ_l σ_l p_l q_lᵀ, by entries in all parts of its rows in turn.
