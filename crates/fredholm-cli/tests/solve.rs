@@ -288,3 +288,29 @@ fn complex_answers_systems_and_maps_are_drawn() {
     let svg = drawn(&["--kernel", "x*y*(s+t)", "--source", "1", "--domain", "triangle 0 0 1 0 0 1"]);
     assert!(svg.matches("<rect").count() > 1000, "the squares of a map");
 }
+
+#[test]
+fn a_kernel_that_is_0_over_0_has_its_limit_there() {
+    let words = ["--kernel", "sin(x-1/2)/(x-1/2)/2", "--source", "1", "--at", "0.5, 0.50001"];
+    let (report, code) = report(&folder("solve_limit"), &words);
+    assert_eq!((code, report["status"].as_str()), (0, Some("converged")));
+    let phi = numbers(&report["phi"]);
+    assert!((phi[0] - phi[1]).abs() < 1e-9, "{report}");
+}
+
+#[test]
+fn where_there_is_no_number_nothing_has_converged() {
+    let folder = folder("solve_lost");
+    for kernel in ["1/(x-1/2)", "ln(abs(x-1/2))"] {
+        let words = ["--kernel", kernel, "--source", "1", "--tolerance", "0.01"];
+        let output = solve(&folder, &words);
+        let table = text(&output.stdout);
+        assert_eq!(output.status.code(), Some(3), "{table}");
+        for part in ["TOLERANCE NOT MET", "φ at x = 0.5, where K or f is not"] {
+            assert!(table.contains(part), "no `{part}` in: {table}");
+        }
+        let (report, code) = report(&folder, &words);
+        assert_eq!((code, report["status"].as_str()), (3, Some("tolerance-not-met")));
+        assert_eq!(report["phi"].as_array().unwrap()[5], Value::Null);
+    }
+}

@@ -80,6 +80,12 @@ impl Values {
         }
     }
 
+    /// The first point at which there is no finite value.
+    pub fn first_lost(&self) -> Option<usize> {
+        let lost = |values: &Vec<Number>| values.iter().position(|value| !value.modulus().is_finite());
+        self.components().iter().filter_map(lost).min()
+    }
+
     /// max |φ|.
     pub fn largest(&self) -> f64 {
         self.components().iter().flatten().map(Number::modulus).fold(0.0, f64::max)
@@ -132,11 +138,16 @@ impl Report {
         };
         let null_space = alternative.map_or_else(Vec::new, null_space);
         let x = Points::from(points);
+        // An error that is known is that of numbers.
+        let reached = match answer.status {
+            Status::Converged if phi.first_lost().is_some() => Status::ToleranceNotMet,
+            status => status,
+        };
         // One solution of many need not be the known one.
         let comparable = problem.has_exact() && answer.nullity() == 0;
         Self {
             equation: problem.title.clone(),
-            status: status(answer.status),
+            status: status(reached),
             method: answer.method.clone(),
             class: answer.class.map(class::name),
             n: answer.unknowns,

@@ -16,6 +16,7 @@ pub fn table(report: &Report) -> String {
     if report.status != "no-solution" {
         matters.push(("error", error(report)));
     }
+    matters.extend(not_finite(report));
     matters.push(("condition", condition(report)));
     matters.extend(alternative(report));
     matters.push(("time", time(report.seconds)));
@@ -54,6 +55,15 @@ fn error(report: &Report) -> String {
         Some(error) => format!("{estimate}; {error:.1e} in truth, at the points below"),
         None => estimate,
     }
+}
+
+/// Where there is no φ, though there should be.
+fn not_finite(report: &Report) -> Option<(&'static str, String)> {
+    let lost = report.phi.first_lost().filter(|_| report.status != "no-solution")?;
+    let names = report.x.names().iter().zip(report.x.coordinates(lost));
+    let place: Vec<String> = names.map(|(name, x)| format!("{name} = {}", short(*x))).collect();
+    let place = place.join(", ");
+    Some(("not finite", format!("φ at {place}, where K or f is not: the error is that of other places")))
 }
 
 fn condition(report: &Report) -> String {

@@ -1,7 +1,7 @@
 //! φ(x) = f(x) + Σ_q κ_q(x) φ_n(y_q): the solution as a function, by Nyström's interpolant (paper, (1.29)).
 
 use super::panels::Panels;
-use crate::equation::{Complex64, Function, Interval, Scalar};
+use crate::equation::{Complex64, EquationError, Function, Interval, Scalar};
 use crate::product::{COARSE, Change, POINTS, Product};
 use std::sync::Arc;
 
@@ -59,9 +59,7 @@ pub(crate) fn interpolant<'e, 'a: 'e, T: Scalar>(
         if x.is_infinite() {
             return phi.at(c, *x);
         }
-        let source = source_or_limit(&product, c, *x);
-        let sum = transported(&product, &phi, c, *x, |weight| weight);
-        sum.map_or(T::from(f64::NAN), |sum| source + sum)
+        source_or_limit(&product, c, *x) + sum_or_limit(&product, &phi, c, *x)
     };
     Function::new(components, at)
 }
@@ -71,11 +69,33 @@ fn source_or_limit<T: Scalar>(product: &Product<'_, '_, T>, c: usize, x: f64) ->
     let value = product.equation().source(c, x);
     let (re, im) = value.parts();
     if re.is_nan() || im.is_nan() {
-        let inwards = if x < product.equation().interval().b() { x.next_up() } else { x.next_down() };
-        product.equation().source(c, inwards)
+        product.equation().source(c, inwards(product.equation().interval(), x))
     } else {
         value
     }
+}
+
+/// The double next to x.
+fn inwards(interval: Interval, x: f64) -> f64 {
+    if x < interval.b() { x.next_up() } else { x.next_down() }
+}
+
+/// Σ_b Σ_q κ_q(x) φ_b(y_q); where K(x, y) is 0/0, that of the double next to x; NaN where K is infinite.
+fn sum_or_limit<T: Scalar>(product: &Product<'_, '_, T>, phi: &PanelFunction<T>, c: usize, x: f64) -> T {
+    let sum = |x: f64| transported(product, phi, c, x, |weight| weight);
+    let has_limit = |y: f64| {
+        (0..phi.components()).any(|b| {
+            let mut entry = [T::ZERO];
+            product.equation().kernel(c, b).row(x, &[y], &[y - x], &mut entry);
+            let (re, im) = entry[0].parts();
+            re.is_nan() || im.is_nan()
+        })
+    };
+    let found = match sum(x) {
+        Err(EquationError::KernelNotFinite { y, .. }) if has_limit(y) => sum(inwards(phi.interval, x)),
+        found => found,
+    };
+    found.unwrap_or(T::from(f64::NAN))
 }
 
 /// (1/λ) A φ_n, which satisfies A φ = λ φ between the nodes better than φ_n does.
@@ -101,7 +121,7 @@ fn transported<T: Scalar, V: Scalar>(
     c: usize,
     x: f64,
     lift: impl Fn(T) -> V,
-) -> Option<V> {
+) -> Result<V, EquationError> {
     let t = phi.change.parameter(x);
     let mut sum = V::ZERO;
     let mut weights = [T::ZERO; POINTS];
@@ -109,9 +129,9 @@ fn transported<T: Scalar, V: Scalar>(
         let mut builder = product.builder((c, b), t);
         for panel in 0..phi.panels.len() {
             weights.fill(T::ZERO);
-            builder.panel(phi.panels.ends(panel), &COARSE, &mut weights).ok()?;
+            builder.panel(phi.panels.ends(panel), &COARSE, &mut weights)?;
             sum += weights.iter().zip(phi.panel(b, panel)).map(|(w, v)| lift(*w) * *v).sum::<V>();
         }
     }
-    Some(sum)
+    Ok(sum)
 }
