@@ -67,15 +67,19 @@ pub(crate) fn interpolant<'e, 'a: 'e, T: Scalar>(
 /// f_c(x); where that is 0/0 or 0 · ln 0, the f_c of the double next to x, inwards.
 fn source_or_limit<T: Scalar>(product: &Product<'_, '_, T>, c: usize, x: f64) -> T {
     let value = product.equation().source(c, x);
-    let (re, im) = value.parts();
-    if re.is_nan() || im.is_nan() {
+    if is_nan(value) {
         product.equation().source(c, inwards(product.equation().interval(), x))
     } else {
         value
     }
 }
 
-/// The double next to x.
+fn is_nan<T: Scalar>(value: T) -> bool {
+    let (re, im) = value.parts();
+    re.is_nan() || im.is_nan()
+}
+
+/// The double next to x, away from the end of the interval.
 fn inwards(interval: Interval, x: f64) -> f64 {
     if x < interval.b() { x.next_up() } else { x.next_down() }
 }
@@ -87,8 +91,7 @@ fn sum_or_limit<T: Scalar>(product: &Product<'_, '_, T>, phi: &PanelFunction<T>,
         (0..phi.components()).any(|b| {
             let mut entry = [T::ZERO];
             product.equation().kernel(c, b).row(x, &[y], &[y - x], &mut entry);
-            let (re, im) = entry[0].parts();
-            re.is_nan() || im.is_nan()
+            is_nan(entry[0])
         })
     };
     let found = match sum(x) {
