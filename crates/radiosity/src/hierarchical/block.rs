@@ -176,7 +176,7 @@ impl<'a> Block<'a> {
             else {
                 continue;
             };
-            let factors = [first, last].map(|factors| f64x8::new(factors.map(f64::from)));
+            let factors = [widened(first), widened(last)];
             for (tiles, mean) in tiles.iter_mut().zip(mean) {
                 for (tile, factors) in tiles.iter_mut().zip(&factors) {
                     *tile = factors.mul_add(f64x8::splat(*mean), *tile);
@@ -202,6 +202,14 @@ impl<'a> Block<'a> {
             sums.iter_mut().zip(column).for_each(|(sum, factor)| *sum += mean * f64::from(*factor));
         }
     }
+}
+
+/// In a vector register, in double precision: by a loop, as a call of `map` is not always inlined.
+#[inline(always)]
+fn widened(factors: &[f32; LANES]) -> f64x8 {
+    let mut wide = [0.0; LANES];
+    wide.iter_mut().zip(factors).for_each(|(wide, factor)| *wide = f64::from(*factor));
+    f64x8::new(wide)
 }
 
 /// Patches whose sums are one or two vectors: a block has twice as many at most, and mostly more than that.
