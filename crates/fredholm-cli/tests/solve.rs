@@ -198,19 +198,20 @@ fn what_takes_more_unknowns_than_are_allowed_is_told() {
 #[test]
 fn more_unknowns_than_a_matrix_is_made_for_are_kept_in_blocks() {
     let folder = folder("solve_large");
-    std::fs::write(
-        folder.join("waves.toml"),
-        "kernel = \"exp(-abs(x-y))/2\"\n\
-         source = \"sin(w*x) - (sin(w*x) + w*exp(-x)/2 - (w*cos(w)+sin(w))*exp(x-1)/2)/(1+w^2)\"\n\
-         exact = \"sin(w*x)\"\nparameters = { w = 6000 }\ntolerance = 1e-8\nunknowns = 40000\n",
-    )
-    .unwrap();
-    let (answer, code) = report(&folder, &["waves.toml"]);
-    assert_eq!((code, answer["status"].as_str()), (0, Some("converged")), "{answer}");
-    assert!(answer["method"].as_str().unwrap().contains("blocks of low rank"), "{answer}");
-    assert!(answer["n"].as_u64().unwrap() > 3000, "{answer}");
-    let [told, off] = ["error_estimate", "true_error"].map(|key| answer[key].as_f64().unwrap());
-    assert!(off <= told && told <= 1e-8, "{answer}");
+    for (file, z) in [("waves.toml", "1"), ("complex.toml", "(0.3+0.8*i)")] {
+        let problem = format!(
+            "kernel = \"{z}*exp(-abs(x-y))/2\"\n\
+             source = \"sin(w*x) - {z}*(sin(w*x) + w*exp(-x)/2 - (w*cos(w)+sin(w))*exp(x-1)/2)/(1+w^2)\"\n\
+             exact = \"sin(w*x)\"\nparameters = {{ w = 6000 }}\ntolerance = 1e-8\nunknowns = 40000\n"
+        );
+        std::fs::write(folder.join(file), problem).unwrap();
+        let (answer, code) = report(&folder, &[file]);
+        assert_eq!((code, answer["status"].as_str()), (0, Some("converged")), "{answer}");
+        assert!(answer["method"].as_str().unwrap().contains("blocks of low rank"), "{answer}");
+        assert!(answer["n"].as_u64().unwrap() > 3000, "{answer}");
+        let [told, off] = ["error_estimate", "true_error"].map(|key| answer[key].as_f64().unwrap());
+        assert!(off <= told && told <= 1e-8, "{answer}");
+    }
     let output = solve(&folder, &["waves.toml", "--unknowns", "5000"]);
     assert_eq!(output.status.code(), Some(1));
     assert!(text(&output.stderr).contains("the source alone takes more than"), "{}", text(&output.stderr));

@@ -22,8 +22,7 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     for panels in [64, 256, 1024] {
         let breaks = (0..=panels).map(|k| f64::from(k) / f64::from(panels)).collect();
         let coupling = ProductNystrom::new(&equation, breaks, None)?; //     what F_ij is
-        let points: Vec<[f64; 1]> = coupling.nodes().iter().map(|x| [*x]).collect();
-        let plan = Plan::new(&coupling, &points, Options::default())?; //    which blocks, how much memory
+        let plan = Plan::new(&coupling, &coupling.points(), Options::default())?; // which blocks, how much memory
         let operator = plan.assemble(|_| ())?; //                            how F is kept
         let told = operator.statistics();
         assert!(told.bytes <= plan.bytes() && told.relative_error() < 1e-10);

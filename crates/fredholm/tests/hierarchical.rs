@@ -4,7 +4,7 @@
 
 use fredholm::direct;
 use fredholm::discretize::{Coupling, Galerkin, ProductNystrom};
-use fredholm::equation::{ByOffset, Class, Equation, EquationError, Interval};
+use fredholm::equation::{ByOffset, Class, Complex64, Equation, EquationError, Interval, LineKernel, Source};
 use fredholm::krylov::Gmres;
 use fredholm::operator::hierarchical::{Hierarchical, HierarchicalError, Options, Plan};
 use fredholm::operator::{Columns, Dense, Matrix, Operator, Rows, TransposedOperator};
@@ -337,14 +337,58 @@ fn product_rules_entry_by_entry_are_the_product_rule() {
     }
 }
 
+/// K_ab = (1 + i x y) ln|x − y| but for one, which is smooth: what a row makes of unknowns is what the rules make of the function.
+#[test]
+fn a_complex_system_is_one_real_matrix() {
+    let breaks = vec![0.0, 0.01, 0.02, 0.3, 0.5, 0.55, 1.0];
+    let log =
+        |a: f64| ByOffset(move |x: f64, y: f64, offset: f64| Complex64::new(a, x * y) * offset.abs().ln());
+    let kernels: Vec<Box<dyn LineKernel<Complex64>>> = vec![
+        Box::new(log(1.0)),
+        Box::new(log(-2.0)),
+        Box::new(|x: f64, y: f64| Complex64::new(x, y)),
+        Box::new(log(0.5)),
+    ];
+    let zero = || -> Box<dyn Source<Complex64>> { Box::new(|_| Complex64::ZERO) };
+    let interval = Interval::new(0.0, 1.0).unwrap();
+    let system = Equation::system(interval, kernels, vec![zero(), zero()]).unwrap();
+    let coupling = ProductNystrom::new(&system, breaks.clone(), None).unwrap();
+    let product = Product::new(&system, None).unwrap();
+    let n = coupling.nodes().len();
+    assert_eq!((coupling.width(), coupling.dim(), coupling.points().len()), (4, 4 * n, 4 * n));
+    let value = |k: usize| Complex64::new((3.0 * k as f64).sin(), (5.0 * k as f64).cos());
+    let values: Vec<_> = (0..2 * n).map(value).collect();
+    let unknowns = coupling.unknowns(&values);
+    assert_eq!(coupling.values(&unknowns), values);
+    let mut images = vec![0.0; 4 * n];
+    let mut row = vec![0.0; 4 * n];
+    for (i, image) in images.iter_mut().enumerate() {
+        coupling.row(i, 0, &mut row);
+        *image = row.iter().zip(&unknowns).map(|(entry, u)| entry * u).sum();
+        let j = (7 * i) % (4 * n);
+        assert_eq!(coupling.entry(i, j), row[j]);
+        let mut part = vec![0.0; 41];
+        coupling.row(i, 27, &mut part);
+        assert_eq!(part, row[27..68]);
+    }
+    for (k, image) in coupling.values(&images).iter().enumerate() {
+        let (a, x) = (k / n, coupling.nodes()[k % n]);
+        let of = |b: usize| {
+            let weights = product.row((a, b), x, &breaks).unwrap().weights;
+            weights.iter().zip(&values[b * n..]).map(|(weight, value)| weight * value).sum::<Complex64>()
+        };
+        let expected = of(0) + of(1);
+        assert!((image - expected).norm() <= 1e-13, "{k}: {image} is not {expected}");
+    }
+}
+
 #[test]
 fn singular_equations_are_solved_with_thousands_of_unknowns() {
     for (s, alpha) in [(1.0, 0.0), (0.25, -0.5), (1.0, 0.5)] {
         let equation = singular(s, alpha);
         let coupling = ProductNystrom::new(&equation, panels(256), None).unwrap();
-        let points: Vec<[f64; 1]> = coupling.nodes().iter().map(|x| [*x]).collect();
         let options = Options { tolerance: 1e-10, ..Options::default() };
-        let operator = Plan::new(&coupling, &points, options).unwrap().assemble(|_| ()).unwrap();
+        let operator = Plan::new(&coupling, &coupling.points(), options).unwrap().assemble(|_| ()).unwrap();
         let source: Vec<f64> = coupling.nodes().iter().map(|x| equation.source(0, *x)).collect();
         let coefficient = vec![1.0; source.len()];
         let mut gmres = Gmres::new(System::new(&source, &coefficient, &operator).unwrap());

@@ -1,9 +1,7 @@
 //! Real or complex, as the formulas have it.
 
 use expression::{Column, Formula};
-use fredholm::automatic::{self, Options};
-use fredholm::equation::{Answer, Complex64, Equation, EquationError, Scalar};
-use fredholm::plane::{self, PlaneEquation};
+use fredholm::equation::{Complex64, Scalar};
 use serde::{Serialize, Serializer};
 
 /// A scalar that a formula can be evaluated in.
@@ -16,22 +14,6 @@ pub trait FormulaValue: Scalar {
 
     /// What is written of it.
     fn number(self) -> Number;
-
-    /// The solution by the method that is found, for as many unknowns as there are ways to keep a matrix of such numbers.
-    fn solve<'e, 'a: 'e>(
-        equation: &'e Equation<'a, Self>,
-        options: &Options,
-    ) -> Result<Answer<'e, f64, Self>, EquationError> {
-        automatic::solve(equation, options)
-    }
-
-    /// The same in the plane.
-    fn solve_in_plane<'e, 'a>(
-        equation: &'e PlaneEquation<'a, Self>,
-        options: &plane::Options,
-    ) -> Result<Answer<'e, [f64; 2], Self>, EquationError> {
-        plane::solve(equation, options)
-    }
 }
 
 impl FormulaValue for f64 {
@@ -45,20 +27,6 @@ impl FormulaValue for f64 {
 
     fn number(self) -> Number {
         Number::Real(self)
-    }
-
-    fn solve<'e, 'a: 'e>(
-        equation: &'e Equation<'a, Self>,
-        options: &Options,
-    ) -> Result<Answer<'e, f64, Self>, EquationError> {
-        automatic::solve_large(equation, options)
-    }
-
-    fn solve_in_plane<'e, 'a>(
-        equation: &'e PlaneEquation<'a, Self>,
-        options: &plane::Options,
-    ) -> Result<Answer<'e, [f64; 2], Self>, EquationError> {
-        plane::solve_large(equation, options)
     }
 }
 

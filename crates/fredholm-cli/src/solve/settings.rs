@@ -6,7 +6,6 @@ use crate::problem::{Domain, FormulaValue, Problem, ProblemFile, Said};
 use anyhow::{Result, bail};
 use fredholm::automatic;
 use fredholm::equation::{Answer, Class, Equation, EquationError};
-use fredholm::memory;
 use fredholm::methods::{self, Method, RuleKind, Setup};
 use fredholm::plane::{self, PlaneEquation};
 use fredholm::space::SpaceKind;
@@ -15,9 +14,6 @@ use std::str::FromStr;
 
 /// The greatest error wanted, when nobody says.
 const TOLERANCE: f64 = 1e-10;
-
-/// Bytes at the peak for each entry of the matrix of real numbers, measured; complex ones take twice as many.
-const BYTES: u64 = 56;
 
 /// What was decided.
 #[derive(Clone, Debug)]
@@ -65,16 +61,6 @@ impl Settings {
             _ => {}
         }
         let by_itself = matches!(domain, Domain::Plane(_)) || method.is_none();
-        let complex = problem.is_complex();
-        let in_blocks = !complex
-            && match domain {
-                Domain::Line(interval) => interval.is_finite() && problem.components() == 1,
-                Domain::Plane(_) => true,
-            };
-        if !in_blocks {
-            // What nobody asks for is hardly ever taken.
-            unknowns.map_or(Ok(()), |unknowns| check_memory(unknowns, complex))?;
-        }
         let dense = if let Domain::Plane(_) = domain { plane::DENSE } else { automatic::DENSE };
         let unknowns = by_itself.then_some(unknowns.unwrap_or(dense));
         let setup = |method| setup(method, space, rule, n, tolerance);
@@ -89,7 +75,7 @@ impl Settings {
     ) -> Result<Answer<'e, f64, T>, EquationError> {
         match &self.method {
             Some(setup) => methods::solve(equation, setup),
-            None => T::solve(equation, &self.automatic()),
+            None => automatic::solve_large(equation, &self.automatic()),
         }
     }
 
@@ -104,26 +90,11 @@ impl Settings {
         equation: &'e PlaneEquation<'_, T>,
     ) -> Result<Answer<'e, [f64; 2], T>, EquationError> {
         let Self { tolerance, n, unknowns, .. } = *self;
-        T::solve_in_plane(
+        plane::solve_large(
             equation,
             &plane::Options { tolerance, n, unknowns: unknowns.unwrap_or(plane::DENSE) },
         )
     }
-}
-
-/// Whether matrices of so many unknowns fit.
-fn check_memory(unknowns: usize, complex: bool) -> Result<()> {
-    let bytes = if complex { 2 * BYTES } else { BYTES };
-    let (needed, free) = ((unknowns as u64).saturating_pow(2).saturating_mul(bytes), memory::limit());
-    if needed > free {
-        bail!(
-            "{unknowns} unknowns may take {} MB, and {} MB are free: allow {} --unknowns at most",
-            needed >> 20,
-            free >> 20,
-            (free / bytes).isqrt()
-        );
-    }
-    Ok(())
 }
 
 /// The command line's choice, or the file's.

@@ -36,7 +36,33 @@ impl<T: Scalar> PanelFunction<T> {
         }
         let t = self.change.parameter(x);
         let (panel, xi) = self.panels.locate(t);
+        self.on_panel(c, panel, xi)
+    }
+
+    /// Component c on a panel, from −1 to 1.
+    pub(crate) fn on_panel(&self, c: usize, panel: usize, xi: f64) -> T {
         COARSE.interpolate(self.panel(c, panel), xi)
+    }
+
+    /// Σ_b Σ_q κ_q(x) φ_b(y_q) at x(t), with the κ_q made numbers of φ's kind, and what the rules leave out of ∫ K g with |g| ≤ 1.
+    pub(crate) fn transported<S: Scalar>(
+        &self,
+        product: &Product<'_, '_, S>,
+        c: usize,
+        t: f64,
+        lift: impl Fn(S) -> T,
+    ) -> Result<(T, f64), EquationError> {
+        let (mut sum, mut error) = (T::ZERO, 0.0);
+        let mut weights = [S::ZERO; POINTS];
+        for b in 0..self.components() {
+            let mut builder = product.builder((c, b), t);
+            for panel in 0..self.panels.len() {
+                weights.fill(S::ZERO);
+                error += builder.panel(self.panels.ends(panel), &COARSE, &mut weights)?.error;
+                sum += weights.iter().zip(self.panel(b, panel)).map(|(w, v)| lift(*w) * *v).sum::<T>();
+            }
+        }
+        Ok((sum, error))
     }
 
     /// As a function.
@@ -86,7 +112,7 @@ fn inwards(interval: Interval, x: f64) -> f64 {
 
 /// Σ_b Σ_q κ_q(x) φ_b(y_q); where K(x, y) is 0/0, that of the double next to x; NaN where K is infinite.
 fn sum_or_limit<T: Scalar>(product: &Product<'_, '_, T>, phi: &PanelFunction<T>, c: usize, x: f64) -> T {
-    let sum = |x: f64| transported(product, phi, c, x, |weight| weight);
+    let sum = |x: f64| Ok(phi.transported(product, c, product.change().parameter(x), |weight| weight)?.0);
     let has_limit = |y: f64| {
         (0..phi.components()).any(|b| {
             let mut entry = [T::ZERO];
@@ -113,28 +139,7 @@ pub(crate) fn eigenfunction<'e, 'a: 'e, T: Scalar>(
         if x.is_infinite() || polynomial.re.is_nan() {
             return polynomial;
         }
-        transported(&product, &phi, c, *x, T::complex).map_or(polynomial, |sum| sum / value)
+        let sum = phi.transported(&product, c, product.change().parameter(*x), T::complex);
+        sum.map_or(polynomial, |(sum, _)| sum / value)
     })
-}
-
-/// Σ_b Σ_q κ_q(x) φ_b(y_q), with the κ_q made numbers of φ's kind.
-fn transported<T: Scalar, V: Scalar>(
-    product: &Product<'_, '_, T>,
-    phi: &PanelFunction<V>,
-    c: usize,
-    x: f64,
-    lift: impl Fn(T) -> V,
-) -> Result<V, EquationError> {
-    let t = phi.change.parameter(x);
-    let mut sum = V::ZERO;
-    let mut weights = [T::ZERO; POINTS];
-    for b in 0..phi.components() {
-        let mut builder = product.builder((c, b), t);
-        for panel in 0..phi.panels.len() {
-            weights.fill(T::ZERO);
-            builder.panel(phi.panels.ends(panel), &COARSE, &mut weights)?;
-            sum += weights.iter().zip(phi.panel(b, panel)).map(|(w, v)| lift(*w) * *v).sum::<V>();
-        }
-    }
-    Ok(sum)
 }

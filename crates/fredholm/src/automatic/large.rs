@@ -7,48 +7,58 @@
 use super::attempt::{SAFETY, largest, sampled};
 use super::found::PanelFunction;
 use super::panels::Panels;
-use super::{DENSE, Options, solve};
+use super::periodic::is_periodic;
+use super::{DENSE, GRADED, Options, has_singular_kernel, solve};
 use crate::discretize::ProductNystrom;
-use crate::equation::{Answer, Class, Equation, EquationError, Status};
+use crate::equation::{Answer, Equation, EquationError, Scalar, Status};
 use crate::memory;
 use crate::operator::NotFinite;
-use crate::product::{COARSE, POINTS, Product};
+use crate::product::{COARSE, Change, POINTS, Product};
 use crate::second_kind::Blocks;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// As [`solve`]; where more unknowns are allowed than [`DENSE`] and it takes more, a real equation on a finite interval is solved
-/// with F in blocks of low rank: memory and time grow like n log n, a million unknowns take some 4 GB. Whether I − A is singular
-/// is examined only as far as [`solve`] does.
+/// As [`solve`]; where more unknowns are allowed than [`DENSE`] and it takes more, F is kept in blocks of low rank: memory and time
+/// grow like n log n, a million real unknowns of one equation take some 4 GB. Whether I − A is singular is examined only as far as
+/// [`solve`] does.
 ///
 /// # Errors
 ///
 /// As [`solve`]; [`EquationError::Method`] where F takes more memory than there is, or where I − A cannot be told from a singular
 /// operator.
-pub fn solve_large<'e>(
-    equation: &'e Equation<'_, f64>,
+pub fn solve_large<'e, 'a: 'e, T: Scalar>(
+    equation: &'e Equation<'a, T>,
     options: &Options,
-) -> Result<Answer<'e, f64, f64>, EquationError> {
-    if options.unknowns <= DENSE || equation.components() > 1 || !equation.interval().is_finite() {
+) -> Result<Answer<'e, f64, T>, EquationError> {
+    if options.unknowns <= DENSE {
         return solve(equation, options);
     }
     let product = Product::new(equation, options.class)?;
-    let most = options.unknowns.min((memory::limit() / LEAST_BYTES) as usize) / POINTS;
-    let resolving = resolving(&product, most, options.tolerance)?;
-    let within = |unknowns| match resolving.len() * POINTS <= unknowns {
+    let of_panel = POINTS * equation.components();
+    let most = options.unknowns.min((memory::limit() / LEAST_BYTES) as usize / T::PARTS) / of_panel;
+    let resolving = resolving(&product, product.change().least_panels(), most, options.tolerance)?;
+    let within = |unknowns| match resolving.len() * of_panel <= unknowns {
         true => solve(equation, &Options { unknowns, ..*options }).map(Some),
         false => Ok(None),
     };
-    let has_verdict = |answer: &Answer<'_, f64, f64>| answer.status != Status::ToleranceNotMet;
+    let has_verdict = |answer: &Answer<'_, f64, T>| answer.status != Status::ToleranceNotMet;
+    let graded = || {
+        let equation = product.equation();
+        if !equation.interval().is_finite() || !has_singular_kernel(&product) || is_periodic(equation) {
+            return Ok(None);
+        }
+        let graded = product.changed(Change::graded(equation.interval()));
+        in_blocks(&graded, &self::resolving(&graded, GRADED, most, options.tolerance)?, most, options)
+    };
     let mut best = within(FEW)?;
     // A matrix may do with fewer panels than blocks, as its residual is known on each.
-    let others: [&dyn Fn() -> Found<'e>; 2] =
-        [&|| in_blocks(&product, &resolving, most, options), &|| within(DENSE)];
+    let others: [&dyn Fn() -> Found<'e, T>; 3] =
+        [&|| in_blocks(&product, &resolving, most, options), &graded, &|| within(DENSE)];
     for other in others {
         if best.as_ref().is_some_and(has_verdict) {
             break;
         }
-        let better = |other: &Answer<'_, f64, f64>| {
+        let better = |other: &Answer<'_, f64, T>| {
             best.as_ref().is_none_or(|best| has_verdict(other) || other.error_estimate < best.error_estimate)
         };
         match other() {
@@ -60,33 +70,34 @@ pub fn solve_large<'e>(
     best.ok_or_else(|| {
         EquationError::Method(format!(
             "the source alone takes more than {} unknowns: allow more of them, where there is memory, or take a larger tolerance",
-            most * POINTS
+            most * of_panel
         ))
     })
 }
 
-type Found<'e> = Result<Option<Answer<'e, f64, f64>>, EquationError>;
+type Found<'e, T> = Result<Option<Answer<'e, f64, T>>, EquationError>;
 
 /// Unknowns of which a matrix takes less time than blocks do.
 const FEW: usize = 1000;
 
 /// The first answer that meets the tolerance, or the best one, of panels that are cut until they are more than `most`; none if they
 /// are from the start.
-fn in_blocks<'e>(
-    product: &Product<'_, '_, f64>,
+fn in_blocks<'e, T: Scalar>(
+    product: &Product<'_, '_, T>,
     resolving: &Panels,
     most: usize,
     options: &Options,
-) -> Found<'e> {
+) -> Found<'e, T> {
     let tolerance = options.tolerance;
     let mut panels = resolving.clone();
-    if matches!(product.class(0, 0), Class::Logarithmic | Class::Algebraic { .. }) {
+    if matches!(product.change(), Change::Identity { .. }) && has_singular_kernel(product) {
         // φ is as singular at the ends as x ln x, and worse.
         let shortest = (PART * tolerance).max(SHORTEST);
         let halvings = |panel: usize| (panels.share(panel) / shortest).log2().ceil().max(0.0) as usize;
         panels = towards_ends(&panels, [halvings(0), halvings(panels.len() - 1)]);
     }
-    let mut best: Option<Answer<'e, f64, f64>> = None;
+    let mut best: Option<Answer<'e, f64, T>> = None;
+    let (mut before, mut error) = (0, f64::INFINITY);
     while panels.len() <= most {
         let attempt = match Attempt::new(product, &panels, tolerance) {
             Ok(attempt) => attempt,
@@ -94,17 +105,24 @@ fn in_blocks<'e>(
             Err(EquationError::Method(_)) if best.is_some() => break,
             Err(error) => return Err(error),
         };
-        let (met, finer) = (attempt.meets(tolerance), attempt.cut(&panels, tolerance));
+        let (met, finer) = (attempt.meets(tolerance), attempt.cut(tolerance));
+        // Next to ends, at which doubles are too far apart, panels would be cut for ever.
+        let in_vain = (panels.len() as f64) < FEW_MORE * before as f64 && attempt.error > GAIN * error;
+        (before, error) = (panels.len(), attempt.error);
         if best.as_ref().is_none_or(|best| attempt.error < best.error_estimate) {
-            best = Some(attempt.answer(product, panels, tolerance));
+            best = Some(attempt.answer(product, tolerance));
         }
-        if met {
+        if met || in_vain {
             break;
         }
         panels = finer;
     }
     Ok(best)
 }
+
+/// So many times as many panels are few more, and an error that falls to such a part has hardly fallen.
+const FEW_MORE: f64 = 1.1;
+const GAIN: f64 = 0.9;
 
 /// Bytes that an unknown takes, at least: in blocks it takes some thousands.
 const LEAST_BYTES: u64 = 2000;
@@ -113,15 +131,20 @@ const LEAST_BYTES: u64 = 2000;
 /// near the ends, and in the middle.
 const LOOKS: [f64; 3] = [-0.995, 0.05, 0.995];
 
-/// A panel of this part of the interval is not cut for the source's sake: it is singular there.
+/// A panel of this part of the interval is not cut any more: something is singular there.
 const SHORTEST: f64 = 1e-14;
 
 /// The part of what is allowed that may be left unresolved on a panel.
 const PART: f64 = 0.1;
 
-/// Panels on which the source is resolved, but not more than `most`, of which there are one too many then.
-fn resolving(product: &Product<'_, '_, f64>, most: usize, tolerance: f64) -> Result<Panels, EquationError> {
-    let mut panels = Panels::equal(product.change().range(), 1);
+/// Panels on which the source is resolved, from `count` on but not more than `most`, of which there are one too many then.
+fn resolving<T: Scalar>(
+    product: &Product<'_, '_, T>,
+    count: usize,
+    most: usize,
+    tolerance: f64,
+) -> Result<Panels, EquationError> {
+    let mut panels = Panels::equal(product.change().range(), count);
     loop {
         let f = sampled(product, &panels.nodes(&COARSE))?;
         let allowed = PART * tolerance * largest(&f);
@@ -134,18 +157,20 @@ fn resolving(product: &Product<'_, '_, f64>, most: usize, tolerance: f64) -> Res
     }
 }
 
-/// By panel, how far the source is from its polynomial between the nodes, beyond rounding.
-fn missed(product: &Product<'_, '_, f64>, panels: &Panels, f: &[f64]) -> Vec<f64> {
-    let on = |panel: usize| {
-        let part = &f[panel * POINTS..][..POINTS];
+/// By panel, how far a source is from its polynomial between the nodes, beyond rounding.
+fn missed<T: Scalar>(product: &Product<'_, '_, T>, panels: &Panels, f: &[T]) -> Vec<f64> {
+    let of = |c: usize, panel: usize| {
+        let part = &f[(c * panels.len() + panel) * POINTS..][..POINTS];
         let (low, high) = panels.ends(panel);
-        let at = |xi: &f64| {
-            let x = 0.5 * ((high + low) + (high - low) * xi);
-            (product.equation().source(0, x) - COARSE.interpolate(part, *xi)).abs()
+        let at = |xi: f64| {
+            let t = 0.5 * ((high + low) + (high - low) * xi);
+            product.equation().source(c, product.change().point(t)) - COARSE.interpolate(part, xi)
         };
-        (largest(&LOOKS.map(|xi| at(&xi))) - ROUNDING * largest(part)).max(0.0)
+        (largest(&LOOKS.map(at)) - ROUNDING * largest(part)).max(0.0)
     };
-    (0..panels.len()).into_par_iter().map(on).collect()
+    let components = 0..product.equation().components();
+    let worst = |panel: usize| components.clone().map(|c| of(c, panel)).fold(0.0, f64::max);
+    (0..panels.len()).into_par_iter().map(worst).collect()
 }
 
 /// What evaluating a function and its interpolant leaves, as a part of it.
@@ -161,8 +186,10 @@ const NEXT: f64 = 0.9999;
 const HALVINGS: f64 = 24.0;
 
 /// The solution on given panels, judged.
-struct Attempt {
-    values: Vec<f64>,
+struct Attempt<T> {
+    panels: Arc<Panels>,
+    phi: PanelFunction<T>,
+    unknowns: usize,
     error: f64,
     scale: f64,
     condition: f64,
@@ -171,28 +198,30 @@ struct Attempt {
     tails: Vec<f64>,
 }
 
-impl Attempt {
-    fn new(product: &Product<'_, '_, f64>, panels: &Panels, tolerance: f64) -> Result<Self, EquationError> {
-        let class = product.class(0, 0);
-        let coupling = ProductNystrom::new(product.equation(), panels.edges().to_vec(), Some(class))?;
-        let points: Vec<[f64; 1]> = coupling.nodes().iter().map(|x| [*x]).collect();
+impl<T: Scalar> Attempt<T> {
+    fn new(product: &Product<'_, '_, T>, panels: &Panels, tolerance: f64) -> Result<Self, EquationError> {
+        let coupling = ProductNystrom::of_panels(product.clone(), panels.edges().to_vec());
         let not_finite = |entry: NotFinite| EquationError::KernelNotFinite {
-            x: coupling.nodes()[entry.row],
-            y: coupling.nodes()[entry.column],
+            x: coupling.nodes()[entry.row / coupling.width()],
+            y: coupling.nodes()[entry.column / coupling.width()],
             value: entry.value.to_string(),
         };
-        let blocks = Blocks::new(&coupling, &points, (tolerance, memory::limit()), not_finite)?;
-        let source = sampled(product, coupling.nodes())?;
-        let values = blocks.solve(&source);
+        let blocks = Blocks::new(&coupling, &coupling.points(), (tolerance, memory::limit()), not_finite)?;
+        let source = sampled(product, &panels.nodes(&COARSE))?;
+        let values = coupling.values(&blocks.solve(&coupling.unknowns(&source)));
         let (norm, inverse_norm, condition) = (blocks.norm(), blocks.inverse_norm(), blocks.condition());
-        let scale = largest(&values);
+        let (unknowns, scale) = (values.len(), largest(&values));
         let mut tails = missed(product, panels, &source);
-        let images: Vec<f64> = values.iter().zip(&source).map(|(value, f)| value - f).collect();
-        let unresolved = images.chunks(POINTS).map(|part| COARSE.unresolved(part));
-        tails.iter_mut().zip(unresolved).for_each(|(tail, unresolved)| *tail += unresolved);
-        let residual = Residual::new(product, panels, &values)?;
+        let images: Vec<T> = values.iter().zip(&source).map(|(value, f)| *value - *f).collect();
+        let count = panels.len();
+        for (k, part) in images.chunks(POINTS).enumerate() {
+            tails[k % count] += COARSE.unresolved(part);
+        }
+        let panels = Arc::new(panels.clone());
+        let phi = PanelFunction::new(product, &panels, values);
+        let residual = Residual::new(product, &panels, &phi)?;
         let unseen = largest(&tails);
-        for (end, at_end) in [0, panels.len() - 1].into_iter().zip(residual.at_ends) {
+        for (end, at_end) in [0, count - 1].into_iter().zip(residual.at_ends) {
             // Where φ is as x ln x, the last coefficients tell less than what they leave out comes to next to an end.
             if at_end > SAFETY * residual.inside {
                 tails[end] = tails[end].max(at_end);
@@ -201,7 +230,7 @@ impl Attempt {
         let rounding = 2.0 * f64::EPSILON * (1.0 + norm) + residual.rule;
         let error = inverse_norm.max(1.0) * (SAFETY * residual.largest() + unseen + rounding * scale);
         let error = if error.is_nan() { f64::INFINITY } else { error };
-        Ok(Self { values, error, scale, condition, inverse_norm, tails })
+        Ok(Self { panels, phi, unknowns, error, scale, condition, inverse_norm, tails })
     }
 
     fn meets(&self, tolerance: f64) -> bool {
@@ -209,44 +238,39 @@ impl Attempt {
     }
 
     /// Panels cut where φ_n is not resolved; all where it is, and the residual says that something else is not.
-    fn cut(&self, panels: &Panels, tolerance: f64) -> Panels {
+    fn cut(&self, tolerance: f64) -> Panels {
         let allowed = PART * tolerance * self.scale / self.inverse_norm.max(1.0);
-        let is_cut = |panel: usize| self.tails[panel] > allowed;
-        let last = panels.len() - 1;
+        let is_cut = |panel: usize| self.tails[panel] > allowed && self.panels.share(panel) > SHORTEST;
+        let last = self.panels.len() - 1;
         if !(0..=last).any(is_cut) {
-            return panels.cut(|_| 2);
+            return self.panels.cut(|_| 2);
         }
         // Next to an end, where φ may be as x ln x, what is missed falls as the last panel's length does.
         let halvings =
             [0, last].map(|end| (self.tails[end] / allowed).log2().ceil().clamp(0.0, HALVINGS) as usize);
-        let inside = panels.cut(|panel| if panel > 0 && panel < last && is_cut(panel) { 2 } else { 1 });
+        let inside = self.panels.cut(|panel| if panel > 0 && panel < last && is_cut(panel) { 2 } else { 1 });
         towards_ends(&inside, halvings)
     }
 
-    fn answer<'e>(
-        self,
-        product: &Product<'_, '_, f64>,
-        panels: Panels,
-        tolerance: f64,
-    ) -> Answer<'e, f64, f64> {
+    fn answer<'e>(self, product: &Product<'_, '_, T>, tolerance: f64) -> Answer<'e, f64, T> {
         let met = self.meets(tolerance);
         Answer {
             status: if met { Status::Converged } else { Status::ToleranceNotMet },
             method: format!(
                 "automatic: collocation on {} panels of degree 15, in blocks of low rank",
-                panels.len()
+                self.panels.len()
             ),
             class: Some(product.worst_class()),
-            unknowns: self.values.len(),
+            unknowns: self.unknowns,
             error_estimate: self.error,
             condition: self.condition,
-            solution: PanelFunction::new(product, &Arc::new(panels), self.values).function(),
+            solution: self.phi.function(),
             alternative: None,
         }
     }
 }
 
-/// The residual between the nodes.
+/// The residual between the nodes, of a system the largest of all components.
 struct Residual {
     /// |f + A φ_n − φ_n| at its largest, but not next to the ends.
     inside: f64,
@@ -257,15 +281,22 @@ struct Residual {
 }
 
 impl Residual {
-    fn new(product: &Product<'_, '_, f64>, panels: &Panels, values: &[f64]) -> Result<Self, EquationError> {
+    fn new<T: Scalar>(
+        product: &Product<'_, '_, T>,
+        panels: &Panels,
+        phi: &PanelFunction<T>,
+    ) -> Result<Self, EquationError> {
         const GOLDEN: f64 = 0.618_033_988_749_895;
+        let components = 0..product.equation().components();
         let at = |(panel, xi): (usize, f64)| -> Result<[f64; 2], EquationError> {
             let (low, high) = panels.ends(panel);
-            let x = 0.5 * ((high + low) + (high - low) * xi);
-            let row = product.row((0, 0), x, panels.edges())?;
-            let image: f64 = row.weights.iter().zip(values).map(|(weight, value)| weight * value).sum();
-            let phi = COARSE.interpolate(&values[panel * POINTS..][..POINTS], xi);
-            Ok([(product.equation().source(0, x) + image - phi).abs(), row.error])
+            let t = 0.5 * ((high + low) + (high - low) * xi);
+            let x = product.change().point(t);
+            components.clone().try_fold([0.0, 0.0], |[worst, rule]: [f64; 2], c| {
+                let (image, error) = phi.transported(product, c, t, |weight| weight)?;
+                let residual = product.equation().source(c, x) + image - phi.on_panel(c, panel, xi);
+                Ok([largest(&[worst, residual.modulus()]), rule.max(error)])
+            })
         };
         let place = |k: usize| match k {
             0 => (0, -NEXT),
@@ -291,7 +322,10 @@ fn towards_ends(panels: &Panels, halvings: [usize; 2]) -> Panels {
     let mut finer = panels.clone();
     for round in 0..halvings[0].max(halvings[1]) {
         let last = finer.len() - 1;
-        let is_cut = |panel| panel == 0 && round < halvings[0] || panel == last && round < halvings[1];
+        let is_cut = |panel| {
+            (panel == 0 && round < halvings[0] || panel == last && round < halvings[1])
+                && finer.share(panel) > SHORTEST
+        };
         finer = finer.cut(|panel| if is_cut(panel) { 2 } else { 1 });
     }
     finer

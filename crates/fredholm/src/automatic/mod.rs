@@ -64,7 +64,7 @@ pub fn solve<'e, 'a: 'e, T: Scalar>(
         return Ok(answer(&plain, attempt, options.tolerance));
     }
     let graded = Arc::new(plain.changed(Change::graded(equation.interval())));
-    let (other, _) = search(&graded, 4, options)?;
+    let (other, _) = search(&graded, GRADED, options)?;
     // Not less than: NaN is no improvement.
     Ok(if other.error < attempt.error || other.status == Some(Status::NoSolution) {
         answer(&graded, other, options.tolerance)
@@ -87,6 +87,9 @@ enum Ending {
 /// Attempts without an error halved before the search is given up. A kernel that oscillates some hundred times shows
 /// nothing before its panels have been halved six times.
 const PATIENCE: usize = 8;
+
+/// Panels that a graded variable begins with.
+const GRADED: usize = 4;
 
 /// Unknowns up to which I − A is examined for null functions that are not resolved yet.
 const EXAMINED: usize = 500;
@@ -144,11 +147,15 @@ fn at_ends<T: Scalar>(product: &Product<'_, '_, T>, panels: &Panels, is_cut: imp
     if !matches!(product.change(), Change::Identity { .. }) {
         return false;
     }
-    if matches!(product.worst_class(), Class::Logarithmic | Class::Algebraic { .. }) {
+    if has_singular_kernel(product) {
         return !periodic::is_periodic(product.equation());
     }
     let rest = (0..panels.len()).any(|panel| !is_cut(panel));
     rest && [0, panels.len() - 1].iter().any(|end| is_cut(*end) && panels.share(*end) <= SHORT)
+}
+
+fn has_singular_kernel<T: Scalar>(product: &Product<'_, '_, T>) -> bool {
+    matches!(product.worst_class(), Class::Logarithmic | Class::Algebraic { .. })
 }
 
 fn answer<'e, 'a: 'e, T: Scalar>(

@@ -9,6 +9,7 @@ mod scalar;
 pub use answer::{Alternative, Answer, Class, Function, Status};
 pub use num_complex::Complex64;
 pub use scalar::Scalar;
+pub(crate) use scalar::{all_parts, between_parts, of_all_parts};
 
 /// A kernel K(x, y) on a line, evaluated for one x and many y at once.
 ///

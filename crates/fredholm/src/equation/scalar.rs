@@ -34,6 +34,9 @@ pub trait Scalar:
     /// 1.
     const ONE: Self;
 
+    /// How many parts a number has: one, or a real and an imaginary one.
+    const PARTS: usize;
+
     /// |z|.
     fn modulus(self) -> f64;
 
@@ -42,6 +45,9 @@ pub trait Scalar:
 
     /// The real and the imaginary part.
     fn parts(self) -> (f64, f64);
+
+    /// The number with these parts; the imaginary one of a real number is left out.
+    fn of_parts(re: f64, im: f64) -> Self;
 
     /// The number as a complex one.
     fn complex(self) -> Complex64 {
@@ -64,6 +70,7 @@ fn parts_of(eigen: &Eigen<f64>) -> (Vec<Complex64>, Mat<Complex64>) {
 impl Scalar for f64 {
     const ZERO: Self = 0.0;
     const ONE: Self = 1.0;
+    const PARTS: usize = 1;
 
     fn modulus(self) -> f64 {
         self.abs()
@@ -73,6 +80,9 @@ impl Scalar for f64 {
     }
     fn parts(self) -> (f64, f64) {
         (self, 0.0)
+    }
+    fn of_parts(re: f64, _: f64) -> Self {
+        re
     }
     fn finite(self) -> bool {
         self.is_finite()
@@ -85,6 +95,7 @@ impl Scalar for f64 {
 impl Scalar for Complex64 {
     const ZERO: Self = Self::new(0.0, 0.0);
     const ONE: Self = Self::new(1.0, 0.0);
+    const PARTS: usize = 2;
 
     fn modulus(self) -> f64 {
         self.norm()
@@ -95,10 +106,33 @@ impl Scalar for Complex64 {
     fn parts(self) -> (f64, f64) {
         (self.re, self.im)
     }
+    fn of_parts(re: f64, im: f64) -> Self {
+        Self::new(re, im)
+    }
     fn finite(self) -> bool {
         self.re.is_finite() && self.im.is_finite()
     }
     fn eigen(matrix: MatRef<'_, Self>) -> Option<(Vec<Complex64>, Mat<Complex64>)> {
         Some(parts_of(&Eigen::new(matrix).ok()?))
+    }
+}
+
+/// The parts of values, one value after another: the unknowns of a real equation.
+pub(crate) fn all_parts<T: Scalar>(values: &[T]) -> Vec<f64> {
+    values.iter().flat_map(|value| <[f64; 2]>::from(value.parts()).into_iter().take(T::PARTS)).collect()
+}
+
+/// The values that have these parts.
+pub(crate) fn of_all_parts<T: Scalar>(parts: &[f64]) -> Vec<T> {
+    parts.chunks_exact(T::PARTS).map(|part| T::of_parts(part[0], part[T::PARTS - 1])).collect()
+}
+
+/// What part q of a number brings to part p of its product with z, as (κ + iλ)(u + iv) = (κu − λv) + i (λu + κv).
+pub(crate) fn between_parts<T: Scalar>(z: T, p: usize, q: usize) -> f64 {
+    let (re, im) = z.parts();
+    match (p, q) {
+        (0, 1) => -im,
+        (1, 0) => im,
+        _ => re,
     }
 }

@@ -61,16 +61,16 @@ pub fn solve<'e, 'a, T: Scalar>(
     solve_by(equation, &options.fitting::<T>(), product::Attempt::dense)
 }
 
-/// As [`solve`]; where more unknowns are allowed than [`DENSE`] a real equation with a singular kernel is solved with A in blocks of low
-/// rank: 20 000 of them take 1 GB and not 13. Whether I − A is singular is then not examined.
+/// As [`solve`]; where more unknowns are allowed than [`DENSE`] an equation with a singular kernel is solved with A in blocks of low
+/// rank: 20 000 real ones take 1 GB and not 13. Whether I − A is singular is then not examined.
 ///
 /// # Errors
 ///
 /// As [`solve`]; [`EquationError::Method`] where I − A cannot be told from a singular operator.
-pub fn solve_large<'e>(
-    equation: &'e PlaneEquation<'_, f64>,
+pub fn solve_large<'e, 'a, T: Scalar>(
+    equation: &'e PlaneEquation<'a, T>,
     options: &Options,
-) -> Result<Answer<'e, [f64; 2], f64>, EquationError> {
+) -> Result<Answer<'e, [f64; 2], T>, EquationError> {
     solve_by(equation, options, product::in_blocks)
 }
 

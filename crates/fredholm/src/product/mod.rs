@@ -12,12 +12,12 @@ mod row;
 pub(crate) use change::Change;
 pub(crate) use diagonal::Diagonal;
 pub(crate) use reference::{COARSE, FINE, POINTS, Reference, SINGULAR};
-pub(crate) use row::{OnPanel, RowBuilder};
+pub(crate) use row::{OnPanel, RowBuilder, Seen};
 
 use crate::equation::{Class, Equation, EquationError, Scalar};
 
 /// The rule for an equation, which knows what each of its kernels does on the diagonal.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Product<'e, 'a, T> {
     equation: &'e Equation<'a, T>,
     change: Change,
@@ -119,6 +119,11 @@ impl<'e, 'a, T: Scalar> Product<'e, 'a, T> {
             row.error += builder.panel((low, high), &COARSE, &mut row.weights[start..])?.error;
         }
         Ok(row)
+    }
+
+    /// K_ab, seen from t.
+    pub(crate) fn seen(&self, (a, b): (usize, usize), t: f64) -> Seen<'_, T> {
+        Seen::new(self.equation.kernel(a, b), self.change, t)
     }
 
     pub(crate) fn builder(&self, (a, b): (usize, usize), t: f64) -> RowBuilder<'_, T> {

@@ -27,47 +27,68 @@ const PROBE: f64 = 1e-13;
 const BUDGET: usize = 100_000;
 
 /// A kernel as a function of t, seen from a fixed t.
-pub(crate) struct Sampler<'k, T> {
+pub(crate) struct Seen<'k, T> {
     kernel: &'k dyn LineKernel<T>,
     change: Change,
     t: f64,
     x: f64,
+}
+
+impl<'k, T: Scalar> Seen<'k, T> {
+    pub(crate) fn new(kernel: &'k dyn LineKernel<T>, change: Change, t: f64) -> Self {
+        Self { kernel, change, t, x: change.point(t) }
+    }
+
+    /// `values[j]` = K(x(t), x(t + τ_j)) x′(t + τ_j), where `y` and `offset` have room for as many numbers.
+    pub(crate) fn sample(
+        &self,
+        tau: &[f64],
+        (y, offset): (&mut [f64], &mut [f64]),
+        values: &mut [T],
+    ) -> Result<(), EquationError> {
+        let Self { kernel, change, t, x } = *self;
+        if let Change::Identity { .. } = change {
+            y.iter_mut().zip(tau).for_each(|(y, tau)| *y = t + tau);
+            offset.copy_from_slice(tau);
+        } else {
+            y.iter_mut().zip(tau).for_each(|(y, tau)| *y = change.point(t + tau));
+            offset.iter_mut().zip(tau).for_each(|(offset, tau)| *offset = change.offset(t, *tau));
+        }
+        if !kernel.takes_offset() {
+            let points = y.iter_mut().zip(&*offset);
+            points
+                .filter(|(y, offset)| **y == x && **offset != 0.0)
+                .for_each(|(y, offset)| *y = beside(x, *offset));
+        }
+        kernel.row(x, y, offset, values);
+        if let Some(j) = values.iter().position(|value| !value.finite()) {
+            let value = format!("{:?}", values[j]);
+            return Err(EquationError::KernelNotFinite { x, y: y[j], value });
+        }
+        if !matches!(change, Change::Identity { .. }) {
+            values.iter_mut().zip(tau).for_each(|(value, tau)| *value = *value * change.slope(t + tau));
+        }
+        Ok(())
+    }
+}
+
+/// The same for samples of any number, one after another.
+pub(crate) struct Sampler<'k, T> {
+    seen: Seen<'k, T>,
     y: Vec<f64>,
     offset: Vec<f64>,
 }
 
 impl<'k, T: Scalar> Sampler<'k, T> {
     pub(crate) fn new(kernel: &'k dyn LineKernel<T>, change: Change, t: f64) -> Self {
-        Self { kernel, change, t, x: change.point(t), y: Vec::new(), offset: Vec::new() }
+        Self { seen: Seen::new(kernel, change, t), y: Vec::new(), offset: Vec::new() }
     }
 
     /// `values[j]` = K(x(t), x(t + τ_j)) x′(t + τ_j).
     pub(crate) fn sample(&mut self, tau: &[f64], values: &mut [T]) -> Result<(), EquationError> {
-        let Self { change, t, x, .. } = *self;
-        self.y.clear();
-        self.offset.clear();
-        if let Change::Identity { .. } = change {
-            self.y.extend(tau.iter().map(|tau| t + tau));
-            self.offset.extend_from_slice(tau);
-        } else {
-            self.y.extend(tau.iter().map(|tau| change.point(t + tau)));
-            self.offset.extend(tau.iter().map(|tau| change.offset(t, *tau)));
-        }
-        if !self.kernel.takes_offset() {
-            let points = self.y.iter_mut().zip(&self.offset);
-            points
-                .filter(|(y, offset)| **y == x && **offset != 0.0)
-                .for_each(|(y, offset)| *y = beside(x, *offset));
-        }
-        self.kernel.row(x, &self.y, &self.offset, values);
-        if let Some(j) = values.iter().position(|value| !value.finite()) {
-            let value = format!("{:?}", values[j]);
-            return Err(EquationError::KernelNotFinite { x, y: self.y[j], value });
-        }
-        if !matches!(change, Change::Identity { .. }) {
-            values.iter_mut().zip(tau).for_each(|(value, tau)| *value = *value * change.slope(t + tau));
-        }
-        Ok(())
+        self.y.resize(tau.len(), 0.0);
+        self.offset.resize(tau.len(), 0.0);
+        self.seen.sample(tau, (&mut self.y, &mut self.offset), values)
     }
 }
 
@@ -114,7 +135,7 @@ impl<'k, T: Scalar> RowBuilder<'k, T> {
         own: &Reference,
         row: &mut [T],
     ) -> Result<OnPanel, EquationError> {
-        let t = self.sampler.t;
+        let t = self.sampler.seen.t;
         let ends = (low - t, high - t);
         self.depth = 0;
         let error = match self.diagonal {
@@ -254,7 +275,7 @@ impl<'k, T: Scalar> RowBuilder<'k, T> {
 
     /// What a kernel that is not told y − x makes of the rounding of y, which is x + τ: the closer to a singularity the more.
     fn rounding_of_core(&self, power: i32) -> f64 {
-        if self.sampler.kernel.takes_offset() {
+        if self.sampler.seen.kernel.takes_offset() {
             return 0.0;
         }
         let grain = self.grain();
@@ -272,12 +293,12 @@ impl<'k, T: Scalar> RowBuilder<'k, T> {
     /// What is lost of an offset, at most, by a kernel that computes it from x and y: half a unit in the last place of
     /// either; and as much again, because the errors of neighbours are not independent (3.6 times half a unit was seen).
     fn grain(&self) -> f64 {
-        4.0 * f64::EPSILON * self.sampler.x.abs()
+        4.0 * f64::EPSILON * self.sampler.seen.x.abs()
     }
 
     /// What a kernel that is not told y − x has of rounding, on the piece that was sampled last: its slope times the grain.
     fn noise(&self) -> f64 {
-        if self.sampler.kernel.takes_offset() {
+        if self.sampler.seen.kernel.takes_offset() {
             return 0.0;
         }
         let neighbours = self.values.windows(2).zip(self.sampler.offset.windows(2));

@@ -58,8 +58,8 @@ impl Blocks {
         let blocks = Self { operator, tolerance, norm, inverse_norm };
         if blocks.condition() > SINGULAR {
             return Err(EquationError::Method(format!(
-                "I − A cannot be told from a singular operator with {n} unknowns (condition {:.0e}): the equation has no solution or \
-                 many, and which of both is told only where fewer unknowns are allowed, and are enough",
+                "I − A cannot be told from a singular operator (condition {:.0e}): the equation has no solution or many, and \
+                 which of both is told only where fewer unknowns are allowed, and are enough",
                 blocks.condition()
             )));
         }

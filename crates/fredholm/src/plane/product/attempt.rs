@@ -4,7 +4,7 @@ use super::alternative::{Singular, Verdict, examine};
 use super::element::{Element, Elements, NODES};
 use super::layout::Layout;
 use super::row::{RowBuilder, Rule, Target};
-use crate::equation::{Answer, Class, EquationError, Function, Scalar, Status};
+use crate::equation::{Answer, Class, EquationError, Function, Scalar, Status, all_parts, of_all_parts};
 use crate::plane::PlaneEquation;
 use crate::plane::estimate::largest;
 use crate::product::{COARSE, POINTS};
@@ -151,23 +151,6 @@ struct Solved<T> {
     condition: f64,
 }
 
-impl<'e> Attempt<'e, '_, f64> {
-    /// With A in blocks of low rank. Whether I − A is singular is not examined.
-    pub(super) fn in_blocks<'a>(
-        layout: Layout<'e, 'a, f64>,
-        tolerance: f64,
-    ) -> Result<Attempt<'e, 'a, f64>, EquationError> {
-        let source = layout.sources()?;
-        let blocks = layout.blocks(tolerance)?;
-        let values = blocks.solve(&source);
-        let (norm, inverse_norm, condition) = (blocks.norm(), blocks.inverse_norm(), blocks.condition());
-        let probes = Probes::new(&layout.elements);
-        let judged =
-            Attempt::judged(layout, &probes, Solved { source, values, norm, inverse_norm, condition })?;
-        Ok(Attempt { is_in_blocks: true, ..judged })
-    }
-}
-
 impl<'e, 'a, T: Scalar> Attempt<'e, 'a, T> {
     /// With A as a matrix.
     pub(in crate::plane) fn dense(layout: Layout<'e, 'a, T>, tolerance: f64) -> Result<Self, EquationError> {
@@ -193,6 +176,17 @@ impl<'e, 'a, T: Scalar> Attempt<'e, 'a, T> {
             attempt.error = f64::INFINITY;
         }
         Ok(attempt)
+    }
+
+    /// With A in blocks of low rank. Whether I − A is singular is not examined.
+    pub(super) fn in_blocks(layout: Layout<'e, 'a, T>, tolerance: f64) -> Result<Self, EquationError> {
+        let source = layout.sources()?;
+        let blocks = layout.blocks(tolerance)?;
+        let values = of_all_parts(&blocks.solve(&all_parts(&source)));
+        let (norm, inverse_norm, condition) = (blocks.norm(), blocks.inverse_norm(), blocks.condition());
+        let probes = Probes::new(&layout.elements);
+        let solved = Solved { source, values, norm, inverse_norm, condition };
+        Ok(Self { is_in_blocks: true, ..Self::judged(layout, &probes, solved)? })
     }
 
     fn judged(layout: Layout<'e, 'a, T>, probes: &Probes, solved: Solved<T>) -> Result<Self, EquationError> {

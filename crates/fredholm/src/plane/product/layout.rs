@@ -3,7 +3,7 @@
 use super::element::{Elements, NODES};
 use super::row::{RowBuilder, Rule, Target};
 use crate::discretize::Coupling;
-use crate::equation::{EquationError, Scalar};
+use crate::equation::{EquationError, Scalar, between_parts};
 use crate::memory;
 use crate::plane::PlaneEquation;
 use crate::product::{COARSE, POINTS};
@@ -62,10 +62,8 @@ impl<'e, 'a, T: Scalar> Layout<'e, 'a, T> {
         filled.into_iter().collect::<Result<(), EquationError>>()?;
         Ok(a)
     }
-}
 
-impl Layout<'_, '_, f64> {
-    /// I − A in blocks of low rank, for solutions to a tolerance.
+    /// I − A in blocks of low rank, for solutions to a tolerance: of complex numbers both parts are unknowns, one after the other.
     ///
     /// # Errors
     ///
@@ -73,24 +71,24 @@ impl Layout<'_, '_, f64> {
     pub(super) fn blocks(&self, tolerance: f64) -> Result<Blocks, EquationError> {
         let entries = Entries::new(self)?;
         let not_finite = |entry: crate::operator::NotFinite| EquationError::PlaneKernelNotFinite {
-            p: self.nodes[entry.row],
-            q: self.nodes[entry.column],
+            p: self.nodes[entry.row / T::PARTS],
+            q: self.nodes[entry.column / T::PARTS],
             value: entry.value.to_string(),
         };
-        let memory = memory::limit();
-        Blocks::new(&entries, &self.nodes, (tolerance, memory), not_finite)
+        let points: Vec<Point> = self.nodes.iter().flat_map(|p| std::iter::repeat_n(*p, T::PARTS)).collect();
+        Blocks::new(&entries, &points, (tolerance, memory::limit()), not_finite)
     }
 }
 
 /// The entries of A: K(q_i, q_j) w_j where the element of q_j is far from q_i, and where it is near what was found for it as a whole.
-struct Entries<'l, 'e, 'a> {
-    layout: &'l Layout<'e, 'a, f64>,
+struct Entries<'l, 'e, 'a, T> {
+    layout: &'l Layout<'e, 'a, T>,
     /// By row: the near elements, ascending, each with its weights.
-    near: Vec<Vec<(u32, Box<[f64]>)>>,
+    near: Vec<Vec<(u32, Box<[T]>)>>,
 }
 
-impl<'l, 'e, 'a> Entries<'l, 'e, 'a> {
-    fn new(layout: &'l Layout<'e, 'a, f64>) -> Result<Self, EquationError> {
+impl<'l, 'e, 'a, T: Scalar> Entries<'l, 'e, 'a, T> {
+    fn new(layout: &'l Layout<'e, 'a, T>) -> Result<Self, EquationError> {
         let rule = Rule::new(layout.exponent);
         let elements = 0..layout.elements.all.len();
         let near_of = |i: usize| {
@@ -98,7 +96,8 @@ impl<'l, 'e, 'a> Entries<'l, 'e, 'a> {
             elements.clone().filter(|k| builder.is_near(*k)).collect::<Vec<usize>>()
         };
         let near: Vec<Vec<usize>> = (0..layout.dim()).into_par_iter().map(near_of).collect();
-        let (bytes, limit) = (near.iter().map(Vec::len).sum::<usize>() as u64 * BYTES, memory::limit() / 2);
+        let count: usize = near.iter().map(Vec::len).sum();
+        let (bytes, limit) = ((count * (NODES * size_of::<T>() + LISTED)) as u64, memory::limit() / 2);
         if bytes > limit {
             return Err(EquationError::Method(format!(
                 "{} unknowns take {} MB for what is near, and {} MB may be taken: allow fewer, or take a larger tolerance",
@@ -110,7 +109,7 @@ impl<'l, 'e, 'a> Entries<'l, 'e, 'a> {
         let weights_of = |(i, near): (usize, Vec<usize>)| -> Result<Vec<_>, EquationError> {
             let mut builder = layout.builder(&rule, i);
             let weights = |k: usize| {
-                let mut weights = vec![0.0; NODES].into_boxed_slice();
+                let mut weights = vec![T::ZERO; NODES].into_boxed_slice();
                 builder.element(k, &mut weights).map(|()| (k as u32, weights))
             };
             near.into_iter().map(weights).collect()
@@ -120,23 +119,50 @@ impl<'l, 'e, 'a> Entries<'l, 'e, 'a> {
     }
 }
 
-/// What a node keeps for an element that is near.
-const BYTES: u64 = 8 * NODES as u64 + 32;
+/// Bytes that a node keeps for an element that is near, besides its weights.
+const LISTED: usize = 32;
 
-impl Coupling for Entries<'_, '_, '_> {
+impl<T: Scalar> Coupling for Entries<'_, '_, '_, T> {
     fn dim(&self) -> usize {
-        self.layout.dim()
+        self.layout.dim() * T::PARTS
     }
 
     fn entry(&self, i: usize, j: usize) -> f64 {
+        let (p, q) = (i % T::PARTS, j % T::PARTS);
+        let (i, j) = (i / T::PARTS, j / T::PARTS);
         let near = &self.near[i];
-        match near.binary_search_by_key(&((j / NODES) as u32), |(element, _)| *element) {
+        let weight = match near.binary_search_by_key(&((j / NODES) as u32), |(element, _)| *element) {
             Ok(k) => near[k].1[j % NODES],
             Err(_) => {
-                let mut entry = [0.0];
-                self.layout.equation.kernel.row(self.layout.nodes[i], &self.layout.nodes[j..=j], &mut entry);
-                entry[0] * self.layout.weights[j]
+                let Layout { equation, nodes, weights, .. } = self.layout;
+                let mut entry = [T::ZERO];
+                equation.kernel.row(nodes[i], &nodes[j..=j], &mut entry);
+                entry[0] * weights[j]
             }
-        }
+        };
+        between_parts(weight, p, q)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::equation::{Complex64, all_parts, of_all_parts};
+    use crate::plane::Domain;
+    use crate::second_kind::SecondKind;
+
+    #[test]
+    fn blocks_of_complex_numbers_solve_what_their_matrix_does() {
+        let z = Complex64::new(0.1, -0.3);
+        let kernel =
+            |p: Point, q: Point| z * (p[0] - q[0]).hypot(p[1] - q[1]).ln() + Complex64::new(p[0], q[1]);
+        let source = |[x, y]: Point| Complex64::new(x + y, x * y);
+        let equation = PlaneEquation::new(Domain::rectangle(0.0, 1.0, 0.0, 1.0).unwrap(), kernel, source);
+        let layout = Layout::new(&equation, Arc::new(Elements::new(equation.domain, 0.0)), 0.0);
+        let source = layout.sources().unwrap();
+        let expected = SecondKind::new(layout.dim(), &layout.matrix().unwrap()).solve(&source);
+        let found: Vec<Complex64> = of_all_parts(&layout.blocks(1e-8).unwrap().solve(&all_parts(&source)));
+        let off = found.iter().zip(&expected).map(|(one, other)| (one - other).norm()).fold(0.0, f64::max);
+        assert!(found.len() == layout.dim() && off < 1e-8, "{off:e} of {} unknowns", found.len());
     }
 }

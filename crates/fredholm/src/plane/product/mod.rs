@@ -64,10 +64,10 @@ const SLENDEREST: f64 = 30.0;
 pub(super) type Find<'e, 'a, T> = fn(Layout<'e, 'a, T>, f64) -> Result<Attempt<'e, 'a, T>, EquationError>;
 
 /// With A in blocks of low rank where a matrix takes more time and memory.
-pub(super) fn in_blocks<'e, 'a>(
-    layout: Layout<'e, 'a, f64>,
+pub(super) fn in_blocks<'e, 'a, T: Scalar>(
+    layout: Layout<'e, 'a, T>,
     tolerance: f64,
-) -> Result<Attempt<'e, 'a, f64>, EquationError> {
+) -> Result<Attempt<'e, 'a, T>, EquationError> {
     if layout.dim() <= DENSE {
         Attempt::dense(layout, tolerance)
     } else {
