@@ -4,13 +4,14 @@
 //! `cargo bench --bench hierarchical` goes to 10⁵; `-- 65536` makes panels of 16 unknowns up to that number, a million unknowns.
 #![allow(missing_docs, clippy::print_stdout)]
 
-use fredholm::discretize::{Coupling, ProductNystrom};
+use fredholm::discretize::{Coupling, Galerkin, ProductNystrom};
 use fredholm::equation::{ByOffset, Equation, Interval};
 use fredholm::krylov::Gmres;
 use fredholm::operator::hierarchical::{Hierarchical, Options, Plan};
 use fredholm::operator::{Matrix, Operator};
 use fredholm::plane::{self, Domain, PlaneEquation};
 use fredholm::relax::{Relaxation, Stop, relax};
+use fredholm::space::{Element, Space};
 use fredholm::system::System;
 use rayon::prelude::*;
 use std::error::Error;
@@ -24,6 +25,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut lines = Vec::new();
     for panels in [64, 512, 4096, 65536].into_iter().filter(|panels| *panels <= most) {
         lines.push(logarithm(panels)?);
+    }
+    slopes(&lines);
+    println!(
+        "\nφ = f + ½ ∫ exp(−|x − y|) φ dy on [0, 1], Galerkin's means over n elements, two nodes each, ε = 1e-9"
+    );
+    heading();
+    let mut lines = Vec::new();
+    for n in [1000, 10_000, 100_000, 1_000_000].into_iter().filter(|n| *n <= 16 * most) {
+        lines.push(means(n)?);
     }
     slopes(&lines);
     println!("\nφ = f + ½ ∫ φ dS / (4π |x − y|) on the unit sphere, equal weights, ε = 1e-5");
@@ -115,9 +125,20 @@ fn logarithm(panels: usize) -> Result<Row, Box<dyn Error>> {
     let equation = Equation::new(Interval::new(0.0, 1.0)?, kernel, source);
     let breaks = (0..=panels).map(|k| k as f64 / panels as f64).collect();
     let coupling = ProductNystrom::new(&equation, breaks, None)?;
-    let points: Vec<[f64; 1]> = coupling.nodes().iter().map(|x| [*x]).collect();
-    let (operator, told) = build(&coupling, &points, 1e-9)?;
+    let (operator, told) = build(&coupling, &coupling.points(), 1e-9)?;
     let f: Vec<f64> = coupling.nodes().iter().map(|x| source(*x)).collect();
+    solved(&operator, &told, &operator, &f, &|_| 1.0, 1.0)
+}
+
+/// φ = 1.
+fn means(n: usize) -> Result<Row, Box<dyn Error>> {
+    let space = Space::on_interval(0.0, 1.0, n, 2);
+    let points: Vec<[f64; 1]> = space.elements.iter().map(|element| [element.node]).collect();
+    let source = |x: &f64| 0.5 * ((-x).exp() + (x - 1.0).exp());
+    let mean = |element: &Element<f64>| n as f64 * element.quadrature.integrate(source);
+    let f: Vec<f64> = space.elements.iter().map(mean).collect();
+    let coupling = Galerkin::new(|x: &f64, y: &f64| 0.5 * (-(x - y).abs()).exp(), space);
+    let (operator, told) = build(&coupling, &points, 1e-9)?;
     solved(&operator, &told, &operator, &f, &|_| 1.0, 1.0)
 }
 
