@@ -66,7 +66,7 @@ pub struct Solve {
 
     /// The most unknowns where the program finds how many it takes [default: 3000, in the plane 4096]. In a matrix time goes with
     /// their cube and memory with their square; more of them are kept in blocks of low rank, up to millions, 4 kB each, 10 kB of
-    /// complex ones; so they are in the plane where K is real and singular at (x, y) = (s, t), some ten thousands, 50 kB each
+    /// complex ones; so they are in the plane where K is singular at (x, y) = (s, t), some ten thousands, 50 kB each
     #[arg(long, value_name = "N", value_parser = at_least_one, help_heading = "Method")]
     pub unknowns: Option<usize>,
 

@@ -1,7 +1,7 @@
 //! φ(x) = f(x) + Σ_q κ_q(x) φ_n(y_q): the solution as a function, by Nyström's interpolant (paper, (1.29)).
 
 use super::panels::Panels;
-use crate::equation::{Complex64, EquationError, Function, Interval, Scalar};
+use crate::equation::{Complex64, Equation, EquationError, Function, Interval, Scalar};
 use crate::product::{COARSE, Change, POINTS, Product};
 use std::sync::Arc;
 
@@ -65,6 +65,15 @@ impl<T: Scalar> PanelFunction<T> {
         Ok((sum, error))
     }
 
+    /// f + this, as a function.
+    pub(crate) fn after_source<'e>(self, equation: &'e Equation<'_, T>) -> Function<'e, f64, T> {
+        Function::new(self.components(), move |c, x| {
+            let image = self.at(c, *x);
+            // Outside the interval f may be anything.
+            if is_nan(image) { image } else { source_or_limit(equation, c, *x) + image }
+        })
+    }
+
     /// As a function.
     pub(crate) fn function<'e>(self) -> Function<'e, f64, T> {
         Function::new(self.components(), move |c, x| self.at(c, *x))
@@ -85,19 +94,15 @@ pub(crate) fn interpolant<'e, 'a: 'e, T: Scalar>(
         if x.is_infinite() {
             return phi.at(c, *x);
         }
-        source_or_limit(&product, c, *x) + sum_or_limit(&product, &phi, c, *x)
+        source_or_limit(product.equation(), c, *x) + sum_or_limit(&product, &phi, c, *x)
     };
     Function::new(components, at)
 }
 
 /// f_c(x); where that is 0/0 or 0 · ln 0, the f_c of the double next to x, inwards.
-fn source_or_limit<T: Scalar>(product: &Product<'_, '_, T>, c: usize, x: f64) -> T {
-    let value = product.equation().source(c, x);
-    if is_nan(value) {
-        product.equation().source(c, inwards(product.equation().interval(), x))
-    } else {
-        value
-    }
+fn source_or_limit<T: Scalar>(equation: &Equation<'_, T>, c: usize, x: f64) -> T {
+    let value = equation.source(c, x);
+    if is_nan(value) { equation.source(c, inwards(equation.interval(), x)) } else { value }
 }
 
 fn is_nan<T: Scalar>(value: T) -> bool {

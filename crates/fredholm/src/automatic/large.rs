@@ -8,7 +8,7 @@ use super::attempt::{SAFETY, largest, sampled};
 use super::found::PanelFunction;
 use super::panels::Panels;
 use super::periodic::is_periodic;
-use super::{DENSE, GRADED, Options, has_singular_kernel, solve};
+use super::{DENSE, GRADED, Options, SHORT, has_singular_kernel, solve};
 use crate::discretize::ProductNystrom;
 use crate::equation::{Answer, Equation, EquationError, Scalar, Status};
 use crate::memory;
@@ -34,17 +34,19 @@ pub fn solve_large<'e, 'a: 'e, T: Scalar>(
         return solve(equation, options);
     }
     let product = Product::new(equation, options.class)?;
-    let of_panel = POINTS * equation.components();
+    let (of_panel, least) = (POINTS * equation.components(), product.change().least_panels());
     let most = options.unknowns.min((memory::limit() / LEAST_BYTES) as usize / T::PARTS) / of_panel;
-    let resolving = resolving(&product, product.change().least_panels(), most, options.tolerance)?;
+    if most < least {
+        return solve(equation, options);
+    }
+    let resolving = resolving(&product, least, most, options.tolerance)?;
     let within = |unknowns| match resolving.len() * of_panel <= unknowns {
         true => solve(equation, &Options { unknowns, ..*options }).map(Some),
         false => Ok(None),
     };
     let has_verdict = |answer: &Answer<'_, f64, T>| answer.status != Status::ToleranceNotMet;
     let graded = || {
-        let equation = product.equation();
-        if !equation.interval().is_finite() || !has_singular_kernel(&product) || is_periodic(equation) {
+        if !is_plain(&product) || !is_singular_at_ends(&product, &resolving) {
             return Ok(None);
         }
         let graded = product.changed(Change::graded(equation.interval()));
@@ -75,6 +77,19 @@ pub fn solve_large<'e, 'a: 'e, T: Scalar>(
     })
 }
 
+/// Whether panels are in x itself.
+fn is_plain<T: Scalar>(product: &Product<'_, '_, T>) -> bool {
+    matches!(product.change(), Change::Identity { .. })
+}
+
+/// Whether φ is singular at an end: with a singular kernel, unless the equation goes round a circle, or as the source is, which has
+/// far shorter panels there.
+fn is_singular_at_ends<T: Scalar>(product: &Product<'_, '_, T>, resolving: &Panels) -> bool {
+    let is_short = |end: usize| resolving.share(end) * (resolving.len() as f64) < SHORT;
+    has_singular_kernel(product) && !is_periodic(product.equation())
+        || at_ends(product.change(), resolving).into_iter().any(is_short)
+}
+
 type Found<'e, T> = Result<Option<Answer<'e, f64, T>>, EquationError>;
 
 /// Unknowns of which a matrix takes less time than blocks do.
@@ -83,18 +98,19 @@ const FEW: usize = 1000;
 /// The first answer that meets the tolerance, or the best one, of panels that are cut until they are more than `most`; none if they
 /// are from the start.
 fn in_blocks<'e, T: Scalar>(
-    product: &Product<'_, '_, T>,
+    product: &Product<'e, '_, T>,
     resolving: &Panels,
     most: usize,
     options: &Options,
 ) -> Found<'e, T> {
     let tolerance = options.tolerance;
     let mut panels = resolving.clone();
-    if matches!(product.change(), Change::Identity { .. }) && has_singular_kernel(product) {
+    if is_plain(product) && has_singular_kernel(product) {
         // φ is as singular at the ends as x ln x, and worse.
         let shortest = (PART * tolerance).max(SHORTEST);
         let halvings = |panel: usize| (panels.share(panel) / shortest).log2().ceil().max(0.0) as usize;
-        panels = towards_ends(&panels, [halvings(0), halvings(panels.len() - 1)]);
+        let ends = at_ends(product.change(), &panels);
+        panels = towards_ends(product.change(), &panels, ends.map(halvings));
     }
     let mut best: Option<Answer<'e, f64, T>> = None;
     let (mut before, mut error) = (0, f64::INFINITY);
@@ -105,17 +121,17 @@ fn in_blocks<'e, T: Scalar>(
             Err(EquationError::Method(_)) if best.is_some() => break,
             Err(error) => return Err(error),
         };
-        let (met, finer) = (attempt.meets(tolerance), attempt.cut(tolerance));
+        let (met, finer) = (attempt.meets(tolerance), attempt.cut(product.change(), tolerance));
         // Next to ends, at which doubles are too far apart, panels would be cut for ever.
         let in_vain = (panels.len() as f64) < FEW_MORE * before as f64 && attempt.error > GAIN * error;
         (before, error) = (panels.len(), attempt.error);
         if best.as_ref().is_none_or(|best| attempt.error < best.error_estimate) {
             best = Some(attempt.answer(product, tolerance));
         }
-        if met || in_vain {
-            break;
+        match finer {
+            Some(finer) if !met && !in_vain => panels = finer,
+            _ => break,
         }
-        panels = finer;
     }
     Ok(best)
 }
@@ -177,9 +193,9 @@ fn missed<T: Scalar>(product: &Product<'_, '_, T>, panels: &Panels, f: &[T]) -> 
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Places where the residual is asked for: at each the kernel is asked for on all panels.
-const PLACES: usize = 128;
+const PLACES: usize = 126;
 
-/// Two of them are next to the ends, on the last panel's way from −1 to 1.
+/// Two more are next to the ends, on the last panel's way from −1 to 1.
 const NEXT: f64 = 0.9999;
 
 /// The most halvings of a panel at an end at once.
@@ -188,7 +204,8 @@ const HALVINGS: f64 = 24.0;
 /// The solution on given panels, judged.
 struct Attempt<T> {
     panels: Arc<Panels>,
-    phi: PanelFunction<T>,
+    /// A φ_n: φ is f and this, so that an f which is singular at an end is not taken for a polynomial there.
+    images: PanelFunction<T>,
     unknowns: usize,
     error: f64,
     scale: f64,
@@ -201,11 +218,7 @@ struct Attempt<T> {
 impl<T: Scalar> Attempt<T> {
     fn new(product: &Product<'_, '_, T>, panels: &Panels, tolerance: f64) -> Result<Self, EquationError> {
         let coupling = ProductNystrom::of_panels(product.clone(), panels.edges().to_vec());
-        let not_finite = |entry: NotFinite| EquationError::KernelNotFinite {
-            x: coupling.nodes()[entry.row / coupling.width()],
-            y: coupling.nodes()[entry.column / coupling.width()],
-            value: entry.value.to_string(),
-        };
+        let not_finite = |entry: NotFinite| coupling.told(entry);
         let blocks = Blocks::new(&coupling, &coupling.points(), (tolerance, memory::limit()), not_finite)?;
         let source = sampled(product, &panels.nodes(&COARSE))?;
         let values = coupling.values(&blocks.solve(&coupling.unknowns(&source)));
@@ -218,10 +231,11 @@ impl<T: Scalar> Attempt<T> {
             tails[k % count] += COARSE.unresolved(part);
         }
         let panels = Arc::new(panels.clone());
+        let images = PanelFunction::new(product, &panels, images);
         let phi = PanelFunction::new(product, &panels, values);
         let residual = Residual::new(product, &panels, &phi)?;
         let unseen = largest(&tails);
-        for (end, at_end) in [0, count - 1].into_iter().zip(residual.at_ends) {
+        for (end, at_end) in at_ends(product.change(), &panels).into_iter().zip(residual.at_ends) {
             // Where φ is as x ln x, the last coefficients tell less than what they leave out comes to next to an end.
             if at_end > SAFETY * residual.inside {
                 tails[end] = tails[end].max(at_end);
@@ -230,29 +244,34 @@ impl<T: Scalar> Attempt<T> {
         let rounding = 2.0 * f64::EPSILON * (1.0 + norm) + residual.rule;
         let error = inverse_norm.max(1.0) * (SAFETY * residual.largest() + unseen + rounding * scale);
         let error = if error.is_nan() { f64::INFINITY } else { error };
-        Ok(Self { panels, phi, unknowns, error, scale, condition, inverse_norm, tails })
+        Ok(Self { panels, images, unknowns, error, scale, condition, inverse_norm, tails })
     }
 
     fn meets(&self, tolerance: f64) -> bool {
         self.error <= tolerance * self.scale || self.error == 0.0
     }
 
-    /// Panels cut where φ_n is not resolved; all where it is, and the residual says that something else is not.
-    fn cut(&self, tolerance: f64) -> Panels {
+    /// Panels cut where φ_n is not resolved; all where it is, and the residual says that something else is not. None where those that
+    /// are to be cut are too short for it.
+    fn cut(&self, change: Change, tolerance: f64) -> Option<Panels> {
         let allowed = PART * tolerance * self.scale / self.inverse_norm.max(1.0);
-        let is_cut = |panel: usize| self.tails[panel] > allowed && self.panels.share(panel) > SHORTEST;
-        let last = self.panels.len() - 1;
-        if !(0..=last).any(is_cut) {
-            return self.panels.cut(|_| 2);
+        let panels = &self.panels;
+        let unresolved: Vec<usize> = (0..panels.len()).filter(|k| self.tails[*k] > allowed).collect();
+        if unresolved.is_empty() {
+            return Some(panels.cut(|_| 2));
+        }
+        if unresolved.iter().all(|k| panels.share(*k) <= SHORTEST) {
+            return None;
         }
         // Next to an end, where φ may be as x ln x, what is missed falls as the last panel's length does.
+        let ends = at_ends(change, panels);
         let halvings =
-            [0, last].map(|end| (self.tails[end] / allowed).log2().ceil().clamp(0.0, HALVINGS) as usize);
-        let inside = self.panels.cut(|panel| if panel > 0 && panel < last && is_cut(panel) { 2 } else { 1 });
-        towards_ends(&inside, halvings)
+            ends.map(|end| (self.tails[end] / allowed).log2().ceil().clamp(0.0, HALVINGS) as usize);
+        let is_cut = |k: usize| self.tails[k] > allowed && !ends.contains(&k) && panels.share(k) > SHORTEST;
+        Some(towards_ends(change, &panels.cut(|k| if is_cut(k) { 2 } else { 1 }), halvings))
     }
 
-    fn answer<'e>(self, product: &Product<'_, '_, T>, tolerance: f64) -> Answer<'e, f64, T> {
+    fn answer<'e>(self, product: &Product<'e, '_, T>, tolerance: f64) -> Answer<'e, f64, T> {
         let met = self.meets(tolerance);
         Answer {
             status: if met { Status::Converged } else { Status::ToleranceNotMet },
@@ -264,7 +283,7 @@ impl<T: Scalar> Attempt<T> {
             unknowns: self.unknowns,
             error_estimate: self.error,
             condition: self.condition,
-            solution: self.phi.function(),
+            solution: self.images.after_source(product.equation()),
             alternative: None,
         }
     }
@@ -298,12 +317,13 @@ impl Residual {
                 Ok([largest(&[worst, residual.modulus()]), rule.max(error)])
             })
         };
-        let place = |k: usize| match k {
-            0 => (0, -NEXT),
-            1 => (panels.len() - 1, NEXT),
-            _ => ((2 * k + 1) * panels.len() / (2 * PLACES), 2.0 * (0.5 + GOLDEN * k as f64).fract() - 1.0),
+        let [first, last] = at_ends(product.change(), panels);
+        let inside = |k: usize| {
+            ((2 * k + 1) * panels.len() / (2 * PLACES), 2.0 * (0.5 + GOLDEN * k as f64).fract() - 1.0)
         };
-        let all = (0..PLACES).into_par_iter().map(|k| at(place(k))).collect::<Result<Vec<_>, _>>()?;
+        let mut places = vec![(first, -NEXT), (last, NEXT)];
+        places.extend((0..PLACES).map(inside));
+        let all = places.into_par_iter().map(at).collect::<Result<Vec<_>, _>>()?;
         let (residuals, rules): (Vec<f64>, Vec<f64>) = all.into_iter().map(|[r, rule]| (r, rule)).unzip();
         Ok(Self {
             inside: largest(&residuals[2..]),
@@ -317,13 +337,25 @@ impl Residual {
     }
 }
 
-/// The first and the last panel halved so many times towards the ends.
-fn towards_ends(panels: &Panels, halvings: [usize; 2]) -> Panels {
+/// The panel that begins at an end of the interval, and the one that stops at the other. Both infinities of the whole line are at
+/// t = 0, where the panels on either side meet.
+fn at_ends(change: Change, panels: &Panels) -> [usize; 2] {
+    match change {
+        Change::WholeLine => {
+            let after = panels.edges().partition_point(|t| *t < 0.0);
+            [after, after - 1]
+        }
+        _ => [0, panels.len() - 1],
+    }
+}
+
+/// The panels at the ends halved so many times towards these.
+fn towards_ends(change: Change, panels: &Panels, halvings: [usize; 2]) -> Panels {
     let mut finer = panels.clone();
     for round in 0..halvings[0].max(halvings[1]) {
-        let last = finer.len() - 1;
+        let [first, last] = at_ends(change, &finer);
         let is_cut = |panel| {
-            (panel == 0 && round < halvings[0] || panel == last && round < halvings[1])
+            (panel == first && round < halvings[0] || panel == last && round < halvings[1])
                 && finer.share(panel) > SHORTEST
         };
         finer = finer.cut(|panel| if is_cut(panel) { 2 } else { 1 });

@@ -2,6 +2,7 @@
 
 use super::Coupling;
 use crate::equation::{Class, Equation, EquationError, Scalar, all_parts, between_parts, of_all_parts};
+use crate::operator::NotFinite;
 use crate::product::{COARSE, POINTS, Product};
 use std::ops::Range;
 
@@ -10,7 +11,7 @@ use std::ops::Range;
 ///
 /// A panel is near as far as it is long. Further away a kernel that is analytic but on the diagonal is integrated by the
 /// panel's own 16 nodes to 10⁻²⁰ of its size (5.8⁻³², by Bernstein's ellipse through the nearest singularity); one that is
-/// wild elsewhere needs panels as short as that asks for.
+/// wild elsewhere, as all are towards infinity, needs panels as short as that asks for.
 ///
 /// F is real. The unknowns of a node follow each other: of a system one for each component, and of a complex equation the real and
 /// the imaginary part of each.
@@ -68,7 +69,7 @@ impl<'e, 'a, T: Scalar> ProductNystrom<'e, 'a, T> {
         Self { product, breaks, places, weights, nodes }
     }
 
-    /// x_i, ascending, each of which has [`Self::width`] unknowns.
+    /// x_i, ascending on a finite interval, each of which has [`Self::width`] unknowns.
     pub fn nodes(&self) -> &[f64] {
         &self.nodes
     }
@@ -84,13 +85,42 @@ impl<'e, 'a, T: Scalar> ProductNystrom<'e, 'a, T> {
     }
 
     /// The unknowns of a function with these values at the nodes, component after component.
+    ///
+    /// # Panics
+    ///
+    /// Unless there is a value for each node and component.
     pub fn unknowns(&self, values: &[T]) -> Vec<f64> {
+        assert_eq!(values.len() * T::PARTS, self.dim(), "a value for each node and component");
         all_parts(&transposed(values, self.nodes.len()))
     }
 
     /// The values at the nodes, component after component, that unknowns stand for.
+    ///
+    /// # Panics
+    ///
+    /// Unless there are as many as the operator has.
     pub fn values(&self, unknowns: &[f64]) -> Vec<T> {
+        assert_eq!(unknowns.len(), self.dim(), "a number for each unknown");
         transposed(&of_all_parts(unknowns), self.product.equation().components())
+    }
+
+    /// Where the kernel is not finite, of an entry that is not.
+    pub(crate) fn told(&self, entry: NotFinite) -> EquationError {
+        let ((node, a, _), (other, b, _)) = (self.place(entry.row), self.place(entry.column));
+        let (t, s, panel) = (self.places[node], self.places[other], other / POINTS);
+        let sampled = match self.is_near(t, panel) {
+            true => self.near((a, b), t, panel).map(drop),
+            false => {
+                let (mut y, mut offset, mut value) = ([0.0], [0.0], [T::ZERO]);
+                self.product.seen((a, b), t).sample(&[s - t], (&mut y, &mut offset), &mut value)
+            }
+        };
+        let here = || EquationError::KernelNotFinite {
+            x: self.nodes[node],
+            y: self.nodes[other],
+            value: entry.value.to_string(),
+        };
+        sampled.err().unwrap_or_else(here)
     }
 
     /// The class of the kernel, of a system's the worst.
@@ -124,7 +154,7 @@ impl<'e, 'a, T: Scalar> ProductNystrom<'e, 'a, T> {
             let panel = from / POINTS;
             let mut to = nodes.end.min((panel + 1) * POINTS);
             if self.is_near(t, panel) {
-                take(from, &self.near(kernel, t, panel)[from % POINTS..][..to - from]);
+                take(from, &self.near_or_nan(kernel, t, panel)[from % POINTS..][..to - from]);
             } else {
                 let most = nodes.end.min(from + CHUNK);
                 while to < most && !self.is_near(t, to / POINTS) {
@@ -148,18 +178,26 @@ impl<'e, 'a, T: Scalar> ProductNystrom<'e, 'a, T> {
                 values.iter_mut().zip(weights).for_each(|(value, weight)| *value = *value * *weight);
                 values
             }
+            // Alone, so that it is told where it is not finite.
+            Err(_) if n > 1 => {
+                nodes.zip(&mut values).for_each(|(j, value)| *value = self.far::<1>(kernel, t, j..j + 1)[0]);
+                values
+            }
             Err(_) => [T::of_parts(f64::NAN, f64::NAN); N],
         }
     }
 
-    /// The rule's weights on a panel; NaN where the kernel is not finite.
-    fn near(&self, kernel: (usize, usize), t: f64, panel: usize) -> [T; POINTS] {
+    /// The rule's weights on a panel.
+    fn near(&self, kernel: (usize, usize), t: f64, panel: usize) -> Result<[T; POINTS], EquationError> {
         let mut weights = [T::ZERO; POINTS];
         let ends = (self.breaks[panel], self.breaks[panel + 1]);
-        match self.product.builder(kernel, t).panel(ends, &COARSE, &mut weights) {
-            Ok(_) => weights,
-            Err(_) => [T::of_parts(f64::NAN, f64::NAN); POINTS],
-        }
+        self.product.builder(kernel, t).panel(ends, &COARSE, &mut weights)?;
+        Ok(weights)
+    }
+
+    /// The same; NaN where the kernel is not finite.
+    fn near_or_nan(&self, kernel: (usize, usize), t: f64, panel: usize) -> [T; POINTS] {
+        self.near(kernel, t, panel).unwrap_or([T::of_parts(f64::NAN, f64::NAN); POINTS])
     }
 }
 
@@ -180,7 +218,7 @@ impl<T: Scalar> Coupling for ProductNystrom<'_, '_, T> {
         let ((node, a, p), (other, b, q)) = (self.place(i), self.place(j));
         let (t, panel) = (self.places[node], other / POINTS);
         let weight = match self.is_near(t, panel) {
-            true => self.near((a, b), t, panel)[other % POINTS],
+            true => self.near_or_nan((a, b), t, panel)[other % POINTS],
             false => self.far::<1>((a, b), t, other..other + 1)[0],
         };
         between_parts(weight, p, q)

@@ -45,6 +45,11 @@ impl Blocks {
     ) -> Result<Self, EquationError> {
         let told = |error| match error {
             HierarchicalError::Entry(entry) => not_finite(entry),
+            HierarchicalError::Memory { needed, allowed, .. } => EquationError::Method(format!(
+                "in blocks of low rank A takes {:.3} GB, and {:.3} GB are allowed: take a larger tolerance, or allow fewer unknowns",
+                needed as f64 / 1e9,
+                allowed as f64 / 1e9
+            )),
             other => EquationError::Method(other.to_string()),
         };
         let kept = (KEPT * tolerance).clamp(1e-14, 1e-4);

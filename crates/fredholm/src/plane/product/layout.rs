@@ -70,10 +70,11 @@ impl<'e, 'a, T: Scalar> Layout<'e, 'a, T> {
     /// As [`Blocks::new`], and where the kernel is not finite.
     pub(super) fn blocks(&self, tolerance: f64) -> Result<Blocks, EquationError> {
         let entries = Entries::new(self)?;
-        let not_finite = |entry: crate::operator::NotFinite| EquationError::PlaneKernelNotFinite {
-            p: self.nodes[entry.row / T::PARTS],
-            q: self.nodes[entry.column / T::PARTS],
-            value: entry.value.to_string(),
+        let not_finite = |entry: crate::operator::NotFinite| {
+            let [p, q] = [entry.row, entry.column].map(|unknown| self.nodes[unknown / T::PARTS]);
+            let mut value = [T::ZERO];
+            self.equation.kernel.row(p, &[q], &mut value);
+            EquationError::PlaneKernelNotFinite { p, q, value: format!("{:?}", value[0]) }
         };
         let points: Vec<Point> = self.nodes.iter().flat_map(|p| std::iter::repeat_n(*p, T::PARTS)).collect();
         Blocks::new(&entries, &points, (tolerance, memory::limit()), not_finite)
