@@ -87,7 +87,7 @@ fn is_plain<T: Scalar>(product: &Product<'_, '_, T>) -> bool {
 fn is_singular_at_ends<T: Scalar>(product: &Product<'_, '_, T>, resolving: &Panels) -> bool {
     let is_short = |end: usize| resolving.share(end) * (resolving.len() as f64) < SHORT;
     has_singular_kernel(product) && !is_periodic(product.equation())
-        || at_ends(product.change(), resolving).into_iter().any(is_short)
+        || end_panels(product.change(), resolving).into_iter().any(is_short)
 }
 
 type Found<'e, T> = Result<Option<Answer<'e, f64, T>>, EquationError>;
@@ -109,7 +109,7 @@ fn in_blocks<'e, T: Scalar>(
         // φ is as singular at the ends as x ln x, and worse.
         let shortest = (PART * tolerance).max(SHORTEST);
         let halvings = |panel: usize| (panels.share(panel) / shortest).log2().ceil().max(0.0) as usize;
-        let ends = at_ends(product.change(), &panels);
+        let ends = end_panels(product.change(), &panels);
         panels = towards_ends(product.change(), &panels, ends.map(halvings));
     }
     let mut best: Option<Answer<'e, f64, T>> = None;
@@ -235,7 +235,7 @@ impl<T: Scalar> Attempt<T> {
         let phi = PanelFunction::new(product, &panels, values);
         let residual = Residual::new(product, &panels, &phi)?;
         let unseen = largest(&tails);
-        for (end, at_end) in at_ends(product.change(), &panels).into_iter().zip(residual.at_ends) {
+        for (end, at_end) in end_panels(product.change(), &panels).into_iter().zip(residual.at_ends) {
             // Where φ is as x ln x, the last coefficients tell less than what they leave out comes to next to an end.
             if at_end > SAFETY * residual.inside {
                 tails[end] = tails[end].max(at_end);
@@ -264,7 +264,7 @@ impl<T: Scalar> Attempt<T> {
             return None;
         }
         // Next to an end, where φ may be as x ln x, what is missed falls as the last panel's length does.
-        let ends = at_ends(change, panels);
+        let ends = end_panels(change, panels);
         let halvings =
             ends.map(|end| (self.tails[end] / allowed).log2().ceil().clamp(0.0, HALVINGS) as usize);
         let is_cut = |k: usize| self.tails[k] > allowed && !ends.contains(&k) && panels.share(k) > SHORTEST;
@@ -317,7 +317,7 @@ impl Residual {
                 Ok([largest(&[worst, residual.modulus()]), rule.max(error)])
             })
         };
-        let [first, last] = at_ends(product.change(), panels);
+        let [first, last] = end_panels(product.change(), panels);
         let inside = |k: usize| {
             ((2 * k + 1) * panels.len() / (2 * PLACES), 2.0 * (0.5 + GOLDEN * k as f64).fract() - 1.0)
         };
@@ -339,7 +339,7 @@ impl Residual {
 
 /// The panel that begins at an end of the interval, and the one that stops at the other. Both infinities of the whole line are at
 /// t = 0, where the panels on either side meet.
-fn at_ends(change: Change, panels: &Panels) -> [usize; 2] {
+fn end_panels(change: Change, panels: &Panels) -> [usize; 2] {
     match change {
         Change::WholeLine => {
             let after = panels.edges().partition_point(|t| *t < 0.0);
@@ -353,7 +353,7 @@ fn at_ends(change: Change, panels: &Panels) -> [usize; 2] {
 fn towards_ends(change: Change, panels: &Panels, halvings: [usize; 2]) -> Panels {
     let mut finer = panels.clone();
     for round in 0..halvings[0].max(halvings[1]) {
-        let [first, last] = at_ends(change, &finer);
+        let [first, last] = end_panels(change, &finer);
         let is_cut = |panel| {
             (panel == first && round < halvings[0] || panel == last && round < halvings[1])
                 && finer.share(panel) > SHORTEST
@@ -361,4 +361,17 @@ fn towards_ends(change: Change, panels: &Panels, halvings: [usize; 2]) -> Panels
         finer = finer.cut(|panel| if is_cut(panel) { 2 } else { 1 });
     }
     finer
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn panels_are_halved_towards_the_ends_and_towards_both_infinities() {
+        let plain = towards_ends(Change::Identity { a: 0.0, b: 1.0 }, &Panels::equal((0.0, 1.0), 2), [2, 1]);
+        assert_eq!(plain.edges(), [0.0, 0.125, 0.25, 0.5, 0.75, 1.0]);
+        let whole = towards_ends(Change::WholeLine, &Panels::equal((-1.0, 1.0), 2), [2, 1]);
+        assert_eq!(whole.edges(), [-1.0, -0.5, 0.0, 0.25, 0.5, 1.0]);
+    }
 }
