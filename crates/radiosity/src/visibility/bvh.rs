@@ -3,8 +3,9 @@
 use super::build;
 use super::facet::Facet;
 use super::packet::{Packet, Triangles};
+use super::ray::bits;
 use glam::DVec3;
-use std::hint::black_box;
+use prefetch_index::prefetch_index;
 use std::ops::ControlFlow;
 use wide::f32x8;
 
@@ -13,6 +14,9 @@ pub(super) const LEAF: u32 = 1 << 31;
 
 /// The deepest tree that [`build`] makes, in nodes: the walk keeps one entry for each.
 pub(super) const DEPTH: usize = 64;
+
+/// So many packets, a megabyte, are near a core by themselves: to ask for them would take a tenth longer.
+const NEAR: usize = 2048;
 
 /// How many walks are made by turns.
 const ABREAST: usize = 8;
@@ -61,8 +65,8 @@ impl Bvh {
     /// Visits the packets in all boxes that the query selects, until it ends the walk.
     #[inline(always)]
     pub(super) fn walk(&self, query: &mut impl Query) {
-        let mut walk = Walk::START;
-        while !self.is_empty() && self.step(&mut walk, query) {}
+        let (mut walk, far) = (Walk::START, self.packets.len() > NEAR);
+        while !self.is_empty() && self.step(&mut walk, query, far) {}
     }
 
     /// The same of many queries by turns, which are given back in any order: while one waits for memory the others go on. Alone each is as
@@ -79,8 +83,8 @@ impl Bvh {
         while !walks.is_empty() {
             let mut k = 0;
             while let Some((walk, (_, query))) = walks.get_mut(k) {
-                if self.step(walk, query) {
-                    self.touch(walk.child);
+                if self.step(walk, query, false) {
+                    self.fetch(walk.child);
                     k += 1;
                 } else {
                     let (name, query) = match queries.next() {
@@ -96,16 +100,21 @@ impl Bvh {
         }
     }
 
-    /// Looks at a node or at a packet, and finds which is next; false at the end.
+    /// Looks at a node or at a packet, and finds which is next; false at the end. With `all` it asks
+    /// for all children of a node that it will visit, so that it waits for the first only.
     #[inline(always)]
-    fn step(&self, walk: &mut Walk, query: &mut impl Query) -> bool {
+    fn step(&self, walk: &mut Walk, query: &mut impl Query, all: bool) -> bool {
         if walk.child & LEAF == 0 {
             if walk.selected != 0 {
                 walk.waiting[walk.depth] = (walk.node, walk.selected);
                 walk.depth += 1;
             }
             walk.node = walk.child;
-            walk.selected = query.select(&self.nodes[walk.node as usize]);
+            let node = &self.nodes[walk.node as usize];
+            walk.selected = query.select(node);
+            if all {
+                bits(walk.selected.into()).for_each(|lane| self.fetch(node.children[lane]));
+            }
         } else {
             let packet = &self.packets[(walk.child ^ LEAF) as usize];
             let within = (&self.nodes[walk.node as usize], walk.lane);
@@ -129,18 +138,24 @@ impl Bvh {
         true
     }
 
-    /// Reads of each line of a node or packet that a step needs, so that it is near by the next one.
+    /// Asks for each line of a node or packet that a step needs, so that it is near by then.
     #[inline(always)]
-    fn touch(&self, child: u32) {
+    fn fetch(&self, child: u32) {
         if child & LEAF == 0 {
             let Node { bounds, children, .. } = &self.nodes[child as usize];
-            black_box([0, 2, 4].map(|k| bounds[k].as_array()[0]));
-            black_box(children[0]);
+            for k in [0, 2, 4] {
+                prefetch_index(bounds, k);
+            }
+            prefetch_index(children, 0);
         } else {
             let Packet { triangles: Triangles { corner, edges: [e, f] }, planes, .. } =
                 &self.packets[(child ^ LEAF) as usize];
-            black_box([&corner[0], &corner[2], &e[1], &f[0], &f[2]].map(|lanes| lanes.as_array()[0]));
-            black_box([1, 3, 5, 7].map(|k| planes[k].offset));
+            for (lanes, k) in [(corner, 0), (corner, 2), (e, 1), (f, 0), (f, 2)] {
+                prefetch_index(lanes, k);
+            }
+            for k in [1, 3, 5, 7] {
+                prefetch_index(planes, k);
+            }
         }
     }
 }
