@@ -8,6 +8,7 @@ use crate::visibility::Visibility;
 use fredholm::operator::hierarchical::{Bounds, Cluster, ClusterTree};
 use fredholm::value::Value;
 use glam::DVec3;
+use prefetch_index::prefetch_index;
 use rayon::prelude::*;
 use std::borrow::Cow;
 
@@ -240,6 +241,14 @@ impl Clusters {
 
     pub fn sender(&self, cluster: Cluster) -> &Sender {
         &self.senders[cluster.index()]
+    }
+
+    /// Asks for what is known of a cluster, so that it is near when it is looked at.
+    pub fn fetch(&self, cluster: Cluster) {
+        let k = cluster.index();
+        prefetch_index(&self.wholes, k);
+        prefetch_index(std::slice::from_ref(&self.wholes[k].turn), 0);
+        prefetch_index(&self.senders, k);
     }
 
     /// The patch that a cluster is, if it is one.

@@ -6,6 +6,7 @@ use crate::kernel;
 use crate::polygon::Polygon;
 use crate::visibility::Visibility;
 use fredholm::operator::hierarchical::Cluster;
+use prefetch_index::prefetch_index;
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -123,7 +124,11 @@ impl Cuts<'_> {
             }
             let counts = excess > 1.0 && (blocker.is_none() || !self.seems_hidden(cluster, rays, hidden));
             match children {
-                Some([a, b]) if counts || self.overlaps(cluster, &own) => stack.extend([b, a]),
+                Some(halves) if counts || self.overlaps(cluster, &own) => {
+                    halves.iter().for_each(|half| self.fetch(*half));
+                    let [a, b] = halves;
+                    stack.extend([b, a]);
+                }
                 _ => {
                     let clear = blocker.is_none() && self.is_clear(hull.as_deref(), cluster);
                     let likely = || {
@@ -136,6 +141,13 @@ impl Cuts<'_> {
                 }
             }
         }
+    }
+
+    /// Asks for all that is read of a cluster, so that it is near when its turn comes.
+    fn fetch(&self, cluster: Cluster) {
+        self.clusters.fetch(cluster);
+        prefetch_index(self.brightness, cluster.index());
+        prefetch_index(self.deviation, cluster.index());
     }
 
     /// Whether a cluster has some of these places: no patch gathers from what it is a part of.

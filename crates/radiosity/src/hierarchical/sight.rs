@@ -8,7 +8,7 @@ use crate::kernel;
 use crate::polygon::Polygon;
 use fredholm::operator::hierarchical::Cluster;
 use glam::DVec3;
-use std::hint::black_box;
+use prefetch_index::prefetch_index;
 
 /// Room for the rays of a column, and what they have met.
 #[derive(Default)]
@@ -132,20 +132,20 @@ impl Factors<'_> {
             let u = (aim.begin + GOLDEN * rays.len() as f64).fract();
             let (part, u) =
                 share(shares.clone(), u).map_or((aim.link.sender, u), |(k, u)| (aim.elements[k].part, u));
-            // What a look for the place will read is asked for before the first look, so that all wait for memory together.
-            black_box(self.before[self.likely(part, u)]);
+            // What a look for the place will read is asked for before the first look, so that none waits for memory.
+            prefetch_index(&self.before, self.likely(part, u));
             let random = self.random(aim.receivers, aim.link, k, ray);
             rays.push(Ray { patch: k, part, u, place: 0, random, ends: None });
         }
         seen.aimed = seen.aimed.max(wanted);
     }
 
-    /// Casts rays. Where all of them go is looked up before the first: so these wait for memory together, too.
+    /// Casts rays. Where all of them go is looked up before the first, and asked for: so these do not wait for memory either.
     fn trace(&self, receivers: &Receivers<'_>, rays: &mut [Ray], seen: &mut [Seen]) {
         let spots = &self.clusters.spots;
         for ray in &mut *rays {
             ray.place = self.at(ray.part, ray.u);
-            black_box(spots.at(ray.place));
+            spots.fetch(ray.place);
         }
         for ray in &mut *rays {
             // Of a cluster, or beyond a horizon, not all faces the patch: what turns its back has no part in the formula either.

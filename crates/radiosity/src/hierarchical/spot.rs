@@ -6,6 +6,7 @@ use crate::patches::Patches;
 use crate::polygon::Polygon;
 use fredholm::value::Value;
 use glam::{DVec2, DVec3, Vec2};
+use prefetch_index::prefetch_index;
 
 /// All patches, in some order, each in the plane of the face that it is a part of.
 #[derive(Debug)]
@@ -47,6 +48,12 @@ impl Spots {
     /// The patch at a place of the order.
     pub fn at(&self, place: usize) -> Spot {
         self.spots[place]
+    }
+
+    /// Asks for the lines of memory that a patch is in, so that it is near when it is looked at.
+    pub fn fetch(&self, place: usize) {
+        prefetch_index(&self.spots, place);
+        prefetch_index(&self.spots, place + 1);
     }
 
     /// A point of a patch.
