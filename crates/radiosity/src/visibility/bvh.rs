@@ -21,8 +21,9 @@ const NEAR: usize = 2048;
 /// How many walks are made by turns.
 const ABREAST: usize = 8;
 
-/// Eight boxes side by side, in order along `axis`.
+/// Eight boxes side by side, in order along `axis`: four lines of memory.
 #[derive(Clone, Debug)]
+#[repr(align(64))]
 pub(super) struct Node {
     /// Low x, y, z, then high x, y, z; an unused child has an empty box.
     pub(super) bounds: [f32x8; 6],

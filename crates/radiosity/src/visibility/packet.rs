@@ -11,9 +11,10 @@ pub(super) struct Triangles {
     pub(super) edges: [[f32x8; 3]; 2],
 }
 
-/// Up to eight triangles, and all that mostly decides about them in one place: where there are many, memory is what a ray waits for.
+/// Up to eight triangles, and all that mostly decides about them in one place, eight lines of memory: where there are many, memory is
+/// what a ray waits for.
 #[derive(Clone, Debug)]
-#[repr(C)]
+#[repr(C, align(64))]
 pub(super) struct Packet {
     pub(super) triangles: Triangles,
     /// The plane of each triangle's polygon: a ray starts on one and ends on one, which by their planes are not in its way.
