@@ -66,8 +66,9 @@ impl Bvh {
     /// Visits the packets in all boxes that the query selects, until it ends the walk.
     #[inline(always)]
     pub(super) fn walk(&self, query: &mut impl Query) {
-        let (mut walk, far) = (Walk::START, self.packets.len() > NEAR);
-        while !self.is_empty() && self.step(&mut walk, query, far) {}
+        let (mut walk, mut waiting) = (Walk::START, NONE_WAIT);
+        let far = self.packets.len() > NEAR;
+        while !self.is_empty() && self.step((&mut walk, &mut waiting), query, far) {}
     }
 
     /// The same of many queries by turns, which are given back in any order: while one waits for memory the others go on. Alone each is as
@@ -80,20 +81,21 @@ impl Bvh {
         if self.is_empty() {
             return queries.for_each(|(name, query)| done(name, query));
         }
-        let mut walks: Vec<_> = queries.by_ref().take(ABREAST).map(|query| (Walk::START, query)).collect();
+        let start = |query| (Walk::START, NONE_WAIT, query);
+        let mut walks: Vec<_> = queries.by_ref().take(ABREAST).map(start).collect();
         while !walks.is_empty() {
             let mut k = 0;
-            while let Some((walk, (_, query))) = walks.get_mut(k) {
-                if self.step(walk, query, false) {
+            while let Some((walk, waiting, (_, query))) = walks.get_mut(k) {
+                if self.step((walk, waiting), query, false) {
                     self.fetch(walk.child);
                     k += 1;
                 } else {
                     let (name, query) = match queries.next() {
                         Some(next) => {
-                            (walk.depth, walk.selected, walk.child) = (0, 0, 0);
-                            std::mem::replace(&mut walks[k].1, next)
+                            *walk = Walk::START;
+                            std::mem::replace(&mut walks[k].2, next)
                         }
-                        None => walks.swap_remove(k).1,
+                        None => walks.swap_remove(k).2,
                     };
                     done(name, query);
                 }
@@ -104,10 +106,10 @@ impl Bvh {
     /// Looks at a node or at a packet, and finds which is next; false at the end. With `all` it asks
     /// for all children of a node that it will visit, so that it waits for the first only.
     #[inline(always)]
-    fn step(&self, walk: &mut Walk, query: &mut impl Query, all: bool) -> bool {
+    fn step(&self, (walk, waiting): (&mut Walk, &mut Waiting), query: &mut impl Query, all: bool) -> bool {
         if walk.child & LEAF == 0 {
             if walk.selected != 0 {
-                walk.waiting[walk.depth] = (walk.node, walk.selected);
+                waiting[walk.depth] = (walk.node, walk.selected);
                 walk.depth += 1;
             }
             walk.node = walk.child;
@@ -128,7 +130,7 @@ impl Bvh {
                 return false;
             }
             walk.depth -= 1;
-            (walk.node, walk.selected) = walk.waiting[walk.depth];
+            (walk.node, walk.selected) = waiting[walk.depth];
         }
         let node = &self.nodes[walk.node as usize];
         let last = query.backwards(node.axis);
@@ -161,12 +163,11 @@ impl Bvh {
     }
 }
 
-/// A walk between two of its steps.
+/// A walk between two of its steps, apart from what waits: so all of it is in registers.
 struct Walk {
-    /// Nodes with the children that are still to be visited.
-    waiting: [(u32, u32); DEPTH],
+    /// How many nodes wait.
     depth: usize,
-    /// The node that it is at, with the same.
+    /// The node that it is at, with the children that are still to be visited.
     node: u32,
     selected: u32,
     /// What is next: of that node, the child in this lane.
@@ -174,6 +175,11 @@ struct Walk {
     lane: usize,
 }
 
+/// Nodes with the children that are still to be visited.
+type Waiting = [(u32, u32); DEPTH];
+
+const NONE_WAIT: Waiting = [(0, 0); DEPTH];
+
 impl Walk {
-    const START: Self = Self { waiting: [(0, 0); DEPTH], depth: 0, node: 0, selected: 0, child: 0, lane: 0 };
+    const START: Self = Self { depth: 0, node: 0, selected: 0, child: 0, lane: 0 };
 }
