@@ -246,6 +246,7 @@ impl Clusters {
     /// Asks for what is known of a cluster, so that it is near when it is looked at.
     pub fn fetch(&self, cluster: Cluster) {
         let k = cluster.index();
+        // A whole is in two lines.
         prefetch_index(&self.wholes, k);
         prefetch_index(std::slice::from_ref(&self.wholes[k].turn), 0);
         prefetch_index(&self.senders, k);
