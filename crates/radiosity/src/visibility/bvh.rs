@@ -103,8 +103,8 @@ impl Bvh {
         }
     }
 
-    /// Looks at a node or at a packet, and finds which is next; false at the end. With `all` it asks
-    /// for all children of a node that it will visit, so that it waits for the first only.
+    /// Looks at a node or at a packet, and finds which is next; false at the end. With `all` it asks for all children of a node that it
+    /// will visit, so that it waits for the first only.
     #[inline(always)]
     fn step(&self, (walk, waiting): (&mut Walk, &mut Waiting), query: &mut impl Query, all: bool) -> bool {
         if walk.child & LEAF == 0 {
