@@ -42,6 +42,25 @@ fn links_and_their_error_are_told() {
 }
 
 #[test]
+fn much_memory_is_told_where_there_is_no_bar_too() {
+    let folder = folder("memory");
+    let told = |patches: usize| {
+        let words = "radiosity --size 16x16 --operator dense --method nystrom --factor-accuracy 0.1 --json -";
+        let output = fredholm(&folder, &format!("{words} --patch-count {patches}"));
+        let report = json(&output.stdout);
+        let error = text(&output.stderr);
+        let note = error.lines().find(|line| line.starts_with("note: ")).map(str::to_owned);
+        (report["patches"].as_f64().unwrap(), note, error.find("note: ") < error.find("residual"))
+    };
+    let (patches, note, is_first) = told(6000);
+    // Four bytes an entry.
+    let megabytes = (4.0 * patches * patches / f64::from(1 << 20)).floor();
+    let expected = format!("note: form factors will take about {megabytes} MB of memory");
+    assert_eq!((note, is_first), (Some(expected), true));
+    assert_eq!(told(1000).1, None);
+}
+
+#[test]
 fn all_solvers_and_operators_find_the_same_light() {
     let folder = folder("operators");
     let floor = |words: &str| {

@@ -170,7 +170,7 @@ pub enum SolveError {
 /// Told how the work goes on.
 pub trait Observer<V: Value>: Sync {
     /// About so many bytes will be taken for form factors, of which there are none yet.
-    fn planned(&self, _bytes: u64) {}
+    fn planned(&mut self, _bytes: u64) {}
 
     /// Links to go on with: a file of [`Kept`] ones.
     fn kept(&mut self) -> Option<Box<dyn Read>> {
@@ -381,7 +381,7 @@ impl<V: Value> Run<'_, V> {
     ) -> Result<Solution<V>, SolveError> {
         let start = Instant::now();
         let n = coupling.dim();
-        self.check_memory(n)?;
+        observer.planned(self.check_memory(n)?);
         let matrix = Dense::<f32>::assemble(coupling, |entries| observer.assembled(entries))?;
         let assembly_seconds = start.elapsed().as_secs_f64();
         let start = Instant::now();
@@ -436,11 +436,11 @@ impl<V: Value> Run<'_, V> {
 
     /// Whether the factors of LU fit, which are a matrix however F is kept.
     fn check_factors(&self, n: usize) -> Result<(), SolveError> {
-        if self.options.solver == Solver::Direct { self.check_memory(n) } else { Ok(()) }
+        if self.options.solver == Solver::Direct { self.check_memory(n).map(drop) } else { Ok(()) }
     }
 
-    /// Whether the matrix fits, and for LU the factors of as many channels as are worked on at once.
-    fn check_memory(&self, n: usize) -> Result<(), SolveError> {
+    /// The bytes that the matrix will take, and for LU the factors of as many channels as are worked on at once, if there are so many.
+    fn check_memory(&self, n: usize) -> Result<u64, SolveError> {
         let at_once = V::CHANNELS.min(rayon::current_num_threads()) as u64;
         let bytes = match self.options.solver {
             Solver::Direct => 4 + 16 * at_once,
@@ -450,7 +450,7 @@ impl<V: Value> Run<'_, V> {
         if needed > available {
             return Err(SolveError::Memory { patches: n, elements: self.space.is_some(), needed, available });
         }
-        Ok(())
+        Ok(needed)
     }
 
     fn relax(

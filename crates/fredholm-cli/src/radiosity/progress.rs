@@ -7,7 +7,7 @@ use super::html::Recording;
 use super::settings::Settings;
 use super::timing::Seconds;
 use crate::args::name;
-use crate::terminal::bar;
+use crate::terminal::{Stream, bar, say};
 use anyhow::Result;
 use fredholm::relax::Relaxation;
 use indicatif::ProgressBar;
@@ -23,6 +23,9 @@ use std::path::PathBuf;
 
 /// Steps of the bar of a relaxation, from the first residual to the last on a logarithmic scale.
 const STEPS: f64 = 1000.0;
+
+/// So many are told beforehand, also where nobody looks at a bar.
+const MANY_MEGABYTES: u64 = 100;
 
 /// Watches the solver: moves its bars and records its frames.
 pub struct Watcher<'a, V> {
@@ -121,8 +124,13 @@ impl<V: Colour> Observer<V> for Watcher<'_, V> {
         self.stop.is_asked()
     }
 
-    fn planned(&self, bytes: u64) {
-        self.assembly.set_message(format!("about {} MB", bytes >> 20));
+    fn planned(&mut self, bytes: u64) {
+        let megabytes = bytes >> 20;
+        self.assembly.set_message(format!("about {megabytes} MB"));
+        if self.assembly.is_hidden() && megabytes >= MANY_MEGABYTES {
+            // Who closes the standard error wants the answer all the same.
+            let _ = say(Stream::Err, &format!("note: form factors will take about {megabytes} MB of memory\n"));
+        }
     }
 
     fn linked(&mut self, links: &Hierarchical) {
