@@ -2,6 +2,7 @@
 
 use crate::polygon::Polygon;
 use glam::DVec3;
+use wide::f64x8;
 
 /// How near to a plane counts as on it, in units of the scene's extent (½ to 1 in its unit).
 ///
@@ -39,6 +40,12 @@ impl Frame {
     /// A point, from metres.
     pub(super) fn point(&self, point: DVec3) -> DVec3 {
         (point - self.centre) * self.scale
+    }
+
+    /// The coordinates along an axis of eight points, as [`point`](Self::point) has them.
+    #[inline(always)]
+    pub(super) fn along(&self, axis: usize, points: [f64; 8]) -> f64x8 {
+        (f64x8::new(points) - f64x8::splat(self.centre[axis])) * f64x8::splat(self.scale)
     }
 
     /// A length, to metres.

@@ -3,24 +3,24 @@
 use super::bvh::{Node, Query};
 use super::facet::Facet;
 use super::packet::{BOX_MARGIN, HALF, MARGIN, Packet, SLOWEST, Segments};
-use glam::DVec3;
+use glam::{DVec3, Vec3A};
 use std::ops::ControlFlow;
 use wide::f32x8;
 
 /// A segment, with margins for what f32 may be wrong by (see [`Segments`]).
 pub(super) struct Ray {
-    origin: [f32; 3],
-    direction: [f32; 3],
+    origin: Vec3A,
+    direction: Vec3A,
+    inverse: Vec3A,
+    /// Of each axis, what is added to plane·inverse to have the parameter there, a little too early.
+    entry: Vec3A,
+    /// The same, a little too late.
+    exit: Vec3A,
     end: f32,
     side_margin: f32,
     end_margin: f32,
-    inverse: [f32; 3],
-    /// Of each axis, what is taken from plane·inverse to have the parameter there, a little too early.
-    entry: [f32; 3],
-    /// The same, a little too late.
-    exit: [f32; 3],
-    /// Where in [`Node::bounds`] the ray enters along each axis, and where it leaves.
-    sides: [(usize, usize); 3],
+    /// A bit for each axis along which the ray goes down.
+    down: u32,
 }
 
 impl Ray {
@@ -32,24 +32,23 @@ impl Ray {
         if !(length > 0.0 && length < f64::INFINITY) {
             return None;
         }
-        let (origin, direction) = (s.as_vec3(), d.as_vec3());
+        let (origin, direction) = (s.as_vec3a(), d.as_vec3a());
         let reach = origin.abs().max_element() + HALF;
         let end_margin = MARGIN * reach;
-        let side_margin = end_margin * direction.abs().max_element();
-        let (origin, direction) = (origin.to_array(), direction.to_array());
-        let inverse = direction.map(|way| way.abs().max(SLOWEST).copysign(way).recip());
-        let pad = inverse.map(|i| BOX_MARGIN * reach * i.abs());
-        let at = |k: usize| origin[k] * inverse[k];
+        let speed = direction.abs();
+        let inverse = speed.max(Vec3A::splat(SLOWEST)).copysign(direction).recip();
+        // Moved by the margin before the division is done: the first box waits for this.
+        let pad = Vec3A::splat(BOX_MARGIN * reach).copysign(direction);
         Some(Self {
             origin,
             direction,
-            end: 1.0,
-            side_margin,
-            end_margin,
             inverse,
-            entry: std::array::from_fn(|k| at(k) + pad[k]),
-            exit: std::array::from_fn(|k| at(k) - pad[k]),
-            sides: std::array::from_fn(|k| if direction[k] < 0.0 { (k + 3, k) } else { (k, k + 3) }),
+            entry: (-origin - pad) * inverse,
+            exit: (pad - origin) * inverse,
+            end: 1.0,
+            side_margin: end_margin * speed.max_element(),
+            end_margin,
+            down: direction.is_negative_bitmask(),
         })
     }
 
@@ -57,8 +56,8 @@ impl Ray {
     #[inline(always)]
     fn segment(&self) -> Segments {
         Segments {
-            origin: self.origin.map(f32x8::splat),
-            direction: self.direction.map(f32x8::splat),
+            origin: splat(self.origin),
+            direction: splat(self.direction),
             end: f32x8::splat(self.end),
             side_margin: f32x8::splat(self.side_margin),
             end_margin: f32x8::splat(self.end_margin),
@@ -68,19 +67,27 @@ impl Ray {
     /// A bit for each box that the ray may meet before its end.
     #[inline(always)]
     fn select(&self, node: &Node) -> u32 {
-        let mut enters = f32x8::ZERO;
-        let mut leaves = f32x8::splat(self.end);
-        for k in 0..3 {
-            let ((near, far), inverse) = (self.sides[k], f32x8::splat(self.inverse[k]));
-            enters = enters.fast_max(node.bounds[near].mul_sub(inverse, f32x8::splat(self.entry[k])));
-            leaves = leaves.fast_min(node.bounds[far].mul_sub(inverse, f32x8::splat(self.exit[k])));
-        }
-        enters.simd_le(leaves).to_bitmask()
+        let [inverse, entry, exit] = [self.inverse, self.entry, self.exit].map(splat);
+        // Where in the bounds the ray enters along an axis, and where it leaves.
+        let far = |k: usize| if self.backwards(k) { k } else { k + 3 };
+        let near = |k: usize| if self.backwards(k) { k + 3 } else { k };
+        let enters: [f32x8; 3] = std::array::from_fn(|k| node.bounds[near(k)].mul_add(inverse[k], entry[k]));
+        let leaves: [f32x8; 3] = std::array::from_fn(|k| node.bounds[far(k)].mul_add(inverse[k], exit[k]));
+        let first = enters[0].fast_max(enters[1]).fast_max(enters[2].fast_max(f32x8::ZERO));
+        let last = leaves[0].fast_min(leaves[1]).fast_min(leaves[2].fast_min(f32x8::splat(self.end)));
+        first.simd_le(last).to_bitmask()
     }
 
+    #[inline(always)]
     fn backwards(&self, axis: usize) -> bool {
-        self.sides[axis].0 > axis
+        self.down >> axis & 1 == 1
     }
+}
+
+/// Each component eight times.
+#[inline(always)]
+fn splat(v: Vec3A) -> [f32x8; 3] {
+    v.to_array().map(f32x8::splat)
 }
 
 /// Which bits are set.
