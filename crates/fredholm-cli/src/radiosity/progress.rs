@@ -129,7 +129,8 @@ impl<V: Colour> Observer<V> for Watcher<'_, V> {
         self.assembly.set_message(format!("about {megabytes} MB"));
         if self.assembly.is_hidden() && megabytes >= MANY_MEGABYTES {
             // Who closes the standard error wants the answer all the same.
-            let _ = say(Stream::Err, &format!("note: form factors will take about {megabytes} MB of memory\n"));
+            let _ =
+                say(Stream::Err, &format!("note: form factors will take about {megabytes} MB of memory\n"));
         }
     }
 
