@@ -55,7 +55,7 @@ fn much_memory_is_told_where_there_is_no_bar_too() {
     let (patches, note, is_first) = told(6000);
     // Four bytes an entry.
     let megabytes = (4.0 * patches * patches / f64::from(1 << 20)).floor();
-    let expected = format!("note: form factors will take about {megabytes} MB of memory");
+    let expected = format!("note: about {megabytes} MB of memory will be taken");
     assert_eq!((note, is_first), (Some(expected), true));
     assert_eq!(told(1000).1, None);
 }

@@ -169,7 +169,7 @@ pub enum SolveError {
 
 /// Told how the work goes on.
 pub trait Observer<V: Value>: Sync {
-    /// About so many bytes will be taken for form factors, of which there are none yet.
+    /// About so many bytes will be taken, for form factors or for those of LU, of which there are none yet.
     fn planned(&mut self, _bytes: u64) {}
 
     /// Links to go on with: a file of [`Kept`] ones.
@@ -408,7 +408,7 @@ impl<V: Value> Run<'_, V> {
     ) -> Result<Solution<V>, SolveError> {
         let start = Instant::now();
         let n = operator.dim();
-        self.check_factors(n)?;
+        self.plan_factors(n, observer)?;
         let system = System::new(self.source, self.reflectance, operator)?;
         let mut relaxation = self.relaxation(system);
         let report = self.relax(&mut *relaxation, observer)?;
@@ -434,9 +434,12 @@ impl<V: Value> Run<'_, V> {
         }
     }
 
-    /// Whether the factors of LU fit, which are a matrix however F is kept.
-    fn check_factors(&self, n: usize) -> Result<(), SolveError> {
-        if self.options.solver == Solver::Direct { self.check_memory(n).map(drop) } else { Ok(()) }
+    /// Tells of the factors of LU, which are a matrix however F is kept, if they fit.
+    fn plan_factors(&self, n: usize, observer: &mut dyn Observer<V>) -> Result<(), SolveError> {
+        if self.options.solver == Solver::Direct {
+            observer.planned(self.check_memory(n)?);
+        }
+        Ok(())
     }
 
     /// The bytes that the matrix will take, and for LU the factors of as many channels as are worked on at once, if there are so many.

@@ -129,8 +129,7 @@ impl<V: Colour> Observer<V> for Watcher<'_, V> {
         self.assembly.set_message(format!("about {megabytes} MB"));
         if self.assembly.is_hidden() && megabytes >= MANY_MEGABYTES {
             // Who closes the standard error wants the answer all the same.
-            let _ =
-                say(Stream::Err, &format!("note: form factors will take about {megabytes} MB of memory\n"));
+            let _ = say(Stream::Err, &format!("note: about {megabytes} MB of memory will be taken\n"));
         }
     }
 

@@ -32,7 +32,7 @@ impl<V: Value> Run<'_, V> {
     /// Solves with links.
     pub(super) fn link(&self, observer: &mut dyn Observer<V>) -> Result<Solution<V>, SolveError> {
         let start = Instant::now();
-        self.check_factors(self.patches.len())?;
+        self.plan_factors(self.patches.len(), observer)?;
         let part = (PART * self.options.accuracy).min(MOST);
         self.check_links(clusters_bytes(self.patches.len()))?;
         let plan = Plan::new(self.patches, self.visibility);

@@ -47,7 +47,7 @@ impl Hull {
 
 /// Up to eight segments between points in metres; an unused lane is NaN.
 ///
-/// All of eight are carried to the scene's unit at once: point by point a beam took half as long again in a small scene.
+/// All of eight are carried to the scene's unit at once: point by point a beam took a third longer in a small scene.
 #[inline(always)]
 fn side_by_side(frame: &Frame, ends: &[[DVec3; 2]]) -> Segments {
     let mut padded = [[DVec3::NAN; 2]; 8];
